@@ -37,6 +37,7 @@ use choice::Chosen;
 use filter::Pass;
 use prepared::Prepared;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The passes, the finest first.
 const PASSES: [Pass; 3] = [
@@ -120,6 +121,14 @@ pub fn denoise_while(input: &Input<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> 
     if input.width * input.height == 0 {
         return Ok(Some(Denoised { pixels: Vec::new(), told: Told::default() }));
     }
+    // Once it was not to go on it does not, whatever is said later.
+    let is_ended = AtomicBool::new(false);
+    let goes_on = || {
+        if !goes_on() {
+            is_ended.store(true, Ordering::Relaxed);
+        }
+        !is_ended.load(Ordering::Relaxed)
+    };
     let prepared = Prepared::new(input);
     let mut chosen = Chosen::nothing(&prepared);
     for pass in &PASSES {
@@ -127,7 +136,7 @@ pub fn denoise_while(input: &Input<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> 
             1 => prepared.variance.clone(),
             _ => prepared::variance_of(&chosen.halves, input.share),
         };
-        let filtered = filter::filter(&prepared, &chosen.halves, &variance, pass, goes_on);
+        let filtered = filter::filter(&prepared, &chosen.halves, &variance, pass, &goes_on);
         if !goes_on() {
             return Ok(None);
         }

@@ -39,7 +39,13 @@ def test_ten_mistakes(scene, code, path, words):
 
 
 def test_all_that_is_wrong_is_told_at_once():
-    error = fault({"background": -1, "objects": [{"Sphere": {"center": [0, 0, 0], "radius": 0}}, {"Mesh": {"file": "none.obj"}}]})
+    error = fault(
+        {
+            "background": -1,
+            "materials": {"never": {"Mirror": {}}},
+            "objects": [{"Sphere": {"center": [0, 0, 0], "radius": 0}}, {"Mesh": {"file": "none.obj"}}],
+        }
+    )
     errors = [d.code for d in error.diagnostics if d.severity == "error"]
     assert errors == ["E0302", "E0301", "E0501"] and error.code == "E0302" and len(error.diagnostics) > len(errors)
     again = pickle.loads(pickle.dumps(error))

@@ -74,7 +74,10 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
     let exact = |group: &&FieldDef| named(group).is_some_and(|group| group.field(name).is_some());
     let group = Scene::DEF.fields.iter().find(exact);
     // `spp` beside the groups, or in another of them.
-    let vague = ["type", "kind", "mode", "format", "end", "length", "count", "rate", "distance", "radius", "path"];
+    let vague = [
+        "type", "kind", "mode", "format", "end", "length", "count", "rate", "distance", "radius", "path", "depth",
+        "sky", "channels", "layers",
+    ];
     let of_groups = name.len() > 2 && !vague.contains(&name) && (def.name == "Scene" || is_group_of_scene(def));
     let called = || {
         let mut groups = Scene::DEF.fields.iter().filter(|_| of_groups);

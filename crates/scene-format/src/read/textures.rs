@@ -283,13 +283,10 @@ impl Reader<'_> {
             Some(item) if item.is_null() => self.null(item, &TEXTURE),
             Some(item) => {
                 // Names of names go deeper, too.
-                let named = item.kind() == Kind::Text;
-                if named {
-                    self.textures.enter(&TEXTURE);
-                }
+                let named = (item.kind() == Kind::Text).then(|| self.textures.enter(&TEXTURE));
                 let texture = Albedo::read(self, item, &TEXTURE);
-                if named {
-                    self.textures.leave();
+                if let Some(before) = named {
+                    self.textures.leave(before);
                 }
                 texture
             }

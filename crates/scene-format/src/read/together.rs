@@ -18,8 +18,9 @@ pub(super) struct Together {
 /// What the values of such fields are in ours.
 type Turned = fn(&[Item<'_, '_>], Syntax) -> Option<String>;
 
-/// A kind, the names of its fields elsewhere, what they are of ours, how that is written, and it written.
-type Row = (&'static str, &'static [&'static [&'static str]], &'static [&'static str], &'static str, Turned);
+/// A kind, the names of its fields elsewhere, what they are of ours, how that is written in RON and in TOML, and it
+/// written.
+type Row = (&'static str, &'static [&'static [&'static str]], &'static [&'static str], [&'static str; 2], Turned);
 
 const MIN: &[&str] = &["min", "minimum", "pmin", "p_min", "lower", "corner1", "corner_1", "bbmin"];
 const MAX: &[&str] = &["max", "maximum", "pmax", "p_max", "upper", "corner2", "corner_2", "bbmax"];
@@ -28,17 +29,45 @@ const OUTER: &[&str] = &["outer", "outer_radius", "exterior_radius"];
 
 const UV_SCALES: &[&[&str]] = &[&["uscale", "u_scale", "su"], &["vscale", "v_scale", "sv"]];
 
+const UV_SCALE: [&str; 2] = ["mapping: Uv(scale: (u, v))", "mapping = { Uv = { scale = [u, v] } }"];
+
+const SIDES: [&[&str]; 3] = [&["width", "w"], &["height", "h"], &["depth", "length", "d"]];
+
 const ROWS: &[Row] = &[
-    ("Box", &[MIN, MAX], &["center", "size"], "center: (x, y, z), size: (x, y, z)", middle_and_sides),
-    ("Box", &[&["width", "w"], &["height", "h"], &["depth", "length", "d"]], &["size"], "size: (x, y, z)", size),
-    ("Rectangle", &[&["width", "w"], &["height", "h", "depth", "length"]], &["size"], "size: (x, y)", size),
-    ("Checkerboard", &[&["color0", "color_0"], &["color1", "color_1"]], &["a", "b"], "a: .., b: ..", two_colors),
-    ("Checkerboard", UV_SCALES, &["mapping"], "mapping: Uv(scale: (u, v))", uv_scale),
-    ("Lines", UV_SCALES, &["mapping"], "mapping: Uv(scale: (u, v))", uv_scale),
-    ("Dots", UV_SCALES, &["mapping"], "mapping: Uv(scale: (u, v))", uv_scale),
-    ("Texture", UV_SCALES, &["mapping"], "mapping: Uv(scale: (u, v))", uv_scale),
+    (
+        "Box",
+        &[MIN, MAX],
+        &["center", "size"],
+        ["center: (x, y, z), size: (x, y, z)", "center = [x, y, z], size = [x, y, z]"],
+        middle_and_sides,
+    ),
+    ("Box", &SIDES, &["size"], ["size: (x, y, z)", "size = [x, y, z]"], size),
+    (
+        "Rectangle",
+        &[&["width", "w"], &["height", "h", "depth", "length"]],
+        &["size"],
+        ["size: (x, y)", "size = [x, y]"],
+        size,
+    ),
+    (
+        "Checkerboard",
+        &[&["color0", "color_0"], &["color1", "color_1"]],
+        &["a", "b"],
+        ["a: .., b: ..", "a = .., b = .."],
+        two_colors,
+    ),
+    ("Checkerboard", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
+    ("Lines", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
+    ("Dots", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
+    ("Texture", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
     // Where the outer edge of the ring is, or its middle: nobody knows.
-    ("Torus", &[INNER, OUTER], &["radius", "tube_radius"], "radius: .., tube_radius: ..", unclear),
+    (
+        "Torus",
+        &[INNER, OUTER],
+        &["radius", "tube_radius"],
+        ["radius: .., tube_radius: ..", "radius = .., tube_radius = .."],
+        unclear,
+    ),
 ];
 
 /// What is said of a field that is one of several; `None` where the others are not there.
@@ -46,7 +75,7 @@ pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
     ROWS.iter().find_map(|row| of_row(unknown, row))
 }
 
-fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, way, turned): &Row) -> Option<Together> {
+fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, [ron, toml], turned): &Row) -> Option<Together> {
     let Unknown { name, item, def, .. } = unknown;
     if def.name != *kind || !theirs.iter().any(|names| names.contains(name)) {
         return None;
@@ -63,13 +92,16 @@ fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, way, turned): &Row
     let syntax = item.syntax();
     let values: Vec<Item<'_, '_>> = found.iter().map(|(_, value)| *value).collect();
     let written = |field: &&str| item.fields().take(MOST).any(|(key, _)| key.text() == **field);
-    let mended = turned(&values, syntax).filter(|_| !ours.iter().any(&written));
+    let is_there = ours.iter().any(written);
+    let mended = turned(&values, syntax).filter(|_| !is_there);
+    let way = if syntax == Syntax::Ron { (*ron).into() } else { syntax.of_toml(*toml) };
     let hint = match &mended {
         Some(mended) => format!("write `{mended}`"),
+        None if is_there => format!("`{way}` says that here, and is written already"),
         None if *kind == "Torus" => "a torus has the `radius` of its ring, to the middle of the tube, and a \
                                      `tube_radius`"
             .to_owned(),
-        None => format!("write `{}`", in_syntax(way, syntax)),
+        None => format!("write `{way}`"),
     };
     let edit = mended.and_then(|replacement| Some(Edit { span: all_of(&found, *item)?, replacement }));
     Some(Together { hint: Some(hint), edit, fields })
@@ -89,19 +121,6 @@ fn all_of(found: &[(Item<'_, '_>, Item<'_, '_>)], item: Item<'_, '_>) -> Option<
         between.is_some_and(|between| between.bytes().all(|byte| matches!(byte, b' ' | b',' | b'\n' | b'\r' | b'\t')))
     });
     joined.then_some(Span { end: last.end, ..first })
-}
-
-/// `center: (x, y, z)` as TOML and JSON have it.
-fn in_syntax(way: &str, syntax: Syntax) -> String {
-    match syntax {
-        Syntax::Ron => way.to_owned(),
-        Syntax::Toml => way.replace(": ", " = ").replace('(', "[").replace(')', "]"),
-        Syntax::Json => {
-            let quoted = way.replace("center:", "\"center\":").replace("tube_radius:", "\"tube_radius\":");
-            let quoted = quoted.replace("size:", "\"size\":").replace(" radius:", " \"radius\":");
-            quoted.replace('(', "[").replace(')', "]")
-        }
-    }
 }
 
 fn bracketed(numbers: &[String], syntax: Syntax) -> String {

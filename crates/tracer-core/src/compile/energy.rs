@@ -5,7 +5,7 @@
 //! G = 4 (alpha + 2^(-alpha/2)) / (alpha + 4), which grows from 1 at alpha = 0 to 4.
 
 use crate::texture::Texture;
-use scene_format::desc::{self, Albedo, BlinnPhong, Material, MaterialRef, with_operands};
+use scene_format::desc::{self, Albedo, BlinnPhong, Material, MaterialRef, Number, with_operands};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeSet;
@@ -37,6 +37,7 @@ struct Loud<'d> {
 fn brightest<'t>(albedo: &Albedo, number: bool, texture: &impl Fn(&desc::Texture, bool) -> Option<&'t Texture>) -> f64 {
     let most = |color: desc::Color| color.into_iter().fold(0.0, f64::max);
     match albedo.resolved() {
+        Albedo::Color(color) if number => Number::of_color(color.value),
         Albedo::Color(color) => most(color.value),
         Albedo::Texture(words) => texture(words, number).map_or(1.0, Texture::brightest),
         Albedo::ColorRamp(ramp) => ramp.stops.0.iter().map(|stop| most(stop.color.value)).fold(0.0, f64::max),
@@ -58,16 +59,18 @@ pub fn warn<'t>(
     texture: impl Fn(&desc::Texture, bool) -> Option<&'t Texture>,
     diagnostics: &mut Diagnostics,
 ) {
-    let named = desc.materials.iter().map(|named| (Some(&*named.name.value), &named.material));
+    let named = desc.materials.iter().map(|named| (Some(&named.name), named.name.span, &named.material));
     let inline = with_operands(&desc.objects).filter_map(|object| match object.value.material() {
-        MaterialRef::Inline(material) => Some((None, &material.value)),
+        MaterialRef::Inline(material) => Some((None, material.span, &material.value)),
         _ => None,
     });
     let mut known = BTreeSet::new();
     let mut loud: Vec<Loud<'_>> = Vec::new();
-    for (name, material) in named.chain(inline) {
+    for (name, place, material) in named.chain(inline) {
         let Material::BlinnPhong(words) = material else { continue };
-        let span = words.specular.span();
+        let name = name.map(|name| &*name.value);
+        // A texture may stand elsewhere.
+        let span = if words.specular.0.is_color() { words.specular.span() } else { place };
         let BlinnPhong { albedo, exponent, specular, energy_conserving: false } = &**words else { continue };
         // A texture's most, of each: the more of any of them, the more is reflected.
         let of_picture = [albedo, &exponent.0, &specular.0].into_iter().any(|value| !value.is_color());

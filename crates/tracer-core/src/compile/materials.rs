@@ -244,7 +244,10 @@ impl<'a> MaterialBuilder<'a> {
     }
 
     fn number(&mut self, words: &desc::Number, base: Option<&Path>) -> Albedo {
-        self.albedo(&words.0, true, base)
+        match words.constant() {
+            Some(number) => Albedo::number(number),
+            None => self.albedo(&words.0, true, base),
+        }
     }
 
     /// A colour, or a number where one is wanted.

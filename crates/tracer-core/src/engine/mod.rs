@@ -25,7 +25,7 @@ pub use inspect::{
 pub use observer::{Observer, Progress, Unobserved};
 pub use options::RenderOptions;
 
-use crate::film::{Crop, Film, FilmGroups, Keeper, Unfinished};
+use crate::film::{Crop, Film, FilmGroups, Keeper, Plan, Unfinished};
 use crate::scene::Scene;
 use grid::Grid;
 use lighting::Lighting;
@@ -79,6 +79,9 @@ pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn
     fits("size", film.size() == fresh.size())?;
     fits("crop", film.crop() == fresh.crop())?;
     fits("part", film.part() == fresh.part())?;
+    // What is done beyond a plan cannot be taken back, nor is it known what of its last pass is.
+    let is_before = |plan: Plan| film.unfinished.is_none() && film.whole <= plan.whole;
+    fits("end", plan(options).is_none_or(is_before))?;
     fits("seed", film.seed() == fresh.seed())?;
     fits("clamp", film.clamp == fresh.clamp)?;
     // Both need layers of their own, so they come before those.
@@ -134,8 +137,13 @@ fn new_film(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> Fi
 
 /// The sample index that a rendering ends before.
 fn samples(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> u32 {
-    let planned = options.plan.map(|plan| plan.end);
+    let planned = plan(options).map(|plan| plan.end);
     options.part.map(|part| part.end).or(planned).or(options.samples).unwrap_or(scene.samples)
+}
+
+/// Where a whole rendering is to end within a pass.
+fn plan(options: &RenderOptions) -> Option<Plan> {
+    options.plan.filter(|_| options.part.is_none())
 }
 
 /// Adds the samples that a film lacks.
@@ -152,14 +160,16 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     let engine = Engine::new(scene, &kernels);
     let before = Counted { counters: film.counters, costs: film.costs, ..Counted::default() };
     let goals = Goals::new(scene, options);
-    let mut work = Work { options, observer, pool: &pool, samples, before, goals, keeper: None };
+    let plan = plan(options);
+    let mut work =
+        Work { options, observer, pool: &pool, samples, plan, moves: scene.moves(), before, goals, keeper: None };
     if scene.moves() {
         return moments::go_on(scene, &kernels, film, work);
     }
     let lit = lit(scene, &film);
     let mut painter = painter(engine, &lit, options, &film, samples, &pool, observer);
     take_up(&mut film, &mut painter)?;
-    let passes = Passes::new(film.whole, samples, 16 * SAMPLES).planned(options.plan);
+    let passes = Passes::new(film.whole, samples, 16 * SAMPLES).planned(plan);
     let mut passes = passes.looking(work.goals.noise.is_some());
     while !work.goals.are_met(&film)
         && let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end))
@@ -181,6 +191,10 @@ struct Work<'a> {
     pool: &'a Pool,
     /// The sample index that it ends before.
     samples: u32,
+    /// Where it ends within a pass.
+    plan: Option<Plan>,
+    /// Each sample index sees a scene of its own.
+    moves: bool,
     /// What was counted before.
     before: Counted,
     goals: Goals,
@@ -192,7 +206,7 @@ impl Work<'_> {
     fn add(&mut self, film: &mut Film, painter: &mut Painter<'_>, pass: Range<u32>) -> bool {
         painter.until = self.goals.until.filter(|_| film.whole > film.first());
         painter.prepare(&pass);
-        let plan = self.options.plan.filter(|plan| plan.whole == pass.start);
+        let plan = self.plan.filter(|plan| plan.whole == pass.start);
         let blocks = painter.grid.len() as u32;
         if let Some(plan) = &plan {
             film.unfinished = Some(plan.pieces(blocks));
@@ -206,6 +220,10 @@ impl Work<'_> {
         note(film, &self.before, &self.pool.counted());
         if film.unfinished.is_none() {
             film.whole = pass.end;
+            if self.moves {
+                // Where there was no way for light paths at this moment, they have brought nothing.
+                film.light_samples = pass.end;
+            }
             film.end_octave();
         }
         if painter.stopped.load(Ordering::Relaxed) || plan.is_some() {
@@ -302,11 +320,11 @@ struct Goals {
 
 impl Goals {
     fn new(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> Self {
-        let of_scene = options.part.is_none() && options.plan.is_none();
+        let of_scene = options.part.is_none() && plan(options).is_none();
         // A time that no clock can hold is none.
         let time = scene.time.filter(|_| of_scene).and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         Goals {
-            noise: options.noise.filter(|_| options.plan.is_none()).or(scene.noise.filter(|_| of_scene)),
+            noise: options.noise.filter(|_| plan(options).is_none()).or(scene.noise.filter(|_| of_scene)),
             until: options.until.or_else(|| Instant::now().checked_add(time?)),
         }
     }

@@ -7,7 +7,7 @@
 use super::passes::{Painter, Passes};
 use super::technique::Engine;
 use super::{Misfit, Work, fits, has_places, lit, painter};
-use crate::film::Film;
+use crate::film::{Film, Plan, Unfinished};
 use crate::scene::Scene;
 use scene_format::Diagnostics;
 use std::any::Any;
@@ -76,6 +76,10 @@ pub(super) fn handed_before(
 /// Adds the samples that a film lacks.
 pub(super) fn go_on(scene: &Scene, kernels: &Kernels, mut film: Film, mut work: Work<'_>) -> Result<Film, Misfit> {
     take_up(scene, &mut film, &work, kernels)?;
+    // A pass is one sample index: no other sees what it sees.
+    let is_one = |rest: &Unfinished| rest.end == film.whole + 1;
+    fits("division into passes", film.unfinished.as_ref().is_none_or(is_one))?;
+    work.plan = work.plan.map(|plan| Plan { end: plan.whole + 1, light: plan.light.min(plan.whole + 1), ..plan });
     film.fault = None;
     let mut handed = match handed_before(scene, kernels, &film, &work, film.whole) {
         Ok(handed) => handed,
@@ -84,7 +88,7 @@ pub(super) fn go_on(scene: &Scene, kernels: &Kernels, mut film: Film, mut work: 
             return Ok(film);
         }
     };
-    let mut passes = Passes::new(film.whole, work.samples, 1).planned(work.options.plan);
+    let mut passes = Passes::new(film.whole, work.samples, 1).planned(work.plan);
     while !work.goals.are_met(&film)
         && let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end))
     {
@@ -105,13 +109,8 @@ pub(super) fn go_on(scene: &Scene, kernels: &Kernels, mut film: Film, mut work: 
             painter.prepare(&pass);
             work.pool.forget_counters();
         }
-        let end = pass.end;
         let goes_on = work.add(&mut film, &mut painter, pass);
         handed.take(&mut painter);
-        if film.unfinished.is_none() {
-            // Where there was no way for light paths at this moment, they have brought nothing.
-            film.light_samples = end;
-        }
         if !goes_on {
             break;
         }

@@ -35,7 +35,8 @@ pub struct RenderOptions {
     pub noise: Option<f64>,
     /// The rendering ends then, as an observer would end it; not before every pixel has a sample.
     pub until: Option<Instant>,
-    /// The rendering ends as another one was ended by a time ([`crate::Film::plan`]); its samples count, and no goal.
+    /// A whole rendering ends as another one was ended by a time ([`crate::Film::plan`]); its samples count, and no
+    /// goal. Where something moves while the shutter is open, its last pass is of one sample index.
     pub plan: Option<Plan>,
     /// What is kept of what camera rays hit first, beside the picture ([`crate::Film::layer`]).
     pub layers: Option<LayerSet>,

@@ -161,7 +161,7 @@ impl<R: Read> SavedFilm<R> {
     /// # Errors
     /// When it cannot be read, or is not.
     pub fn check(mut self) -> Result<FilmHead, FilmError> {
-        let most = *self.head.samples.end();
+        let most = self.head.most();
         let held = self.head.held(&self.head.film_layers()?);
         self.tiles(|records| {
             let read = |(_, bytes): (usize, &[u8])| read_tile(bytes, most, held, &mut Tile::zeroed());
@@ -182,7 +182,7 @@ impl<R: Read> SavedFilm<R> {
         let head = self.head.clone();
         self.tiles(|records| {
             records.beside(&mut tiles, 0)?.into_par_iter().try_for_each(|(tile, bytes)| {
-                read_tile(bytes, *head.samples.end(), held, tile)?;
+                read_tile(bytes, head.most(), held, tile)?;
                 head.has(tile, held.kept).then_some(())
             })
         })?;

@@ -51,7 +51,7 @@ impl FilmHead {
     /// Of a film, with what is to be told beside it.
     pub(super) fn of(film: &Film) -> Self {
         // Of a pass that was ended early somebody wants to know how far it came.
-        let most = film.unfinished.as_ref().map_or(film.whole, |_| film.first() + film.samples().end());
+        let most = film.unfinished.as_ref().map_or(film.whole, |_| film.first().saturating_add(*film.samples().end()));
         FilmHead {
             program: PROGRAM.to_owned(),
             notes: Vec::new(),
@@ -106,7 +106,7 @@ impl FilmHead {
         out.extend(Part::numbers(self.part).into_iter().flat_map(u32::to_le_bytes));
         let counters = counters_as_array(self.counters);
         let costs = [self.unit, self.costs.total, self.costs.reuse, self.costs.caustics, self.costs.clamp];
-        let reals = costs.into_iter().chain(self.octave.differences).map(f64::to_bits);
+        let reals = costs.into_iter().chain(self.octave.differences).chain([self.octave.pixels]).map(f64::to_bits);
         out.extend(counters.into_iter().chain(reals).flat_map(u64::to_le_bytes));
         out.extend((self.layers.len() as u32).to_le_bytes());
         for SavedLayer { name, units } in &self.layers {
@@ -154,7 +154,8 @@ impl FilmHead {
         let real = |from: &mut &[u8]| long(from).map(f64::from_bits);
         let unit = real(from)?;
         let costs = Costs { total: real(from)?, reuse: real(from)?, caustics: real(from)?, clamp: real(from)? };
-        let octave = Octave { samples: of_octave, differences: [real(from)?, real(from)?, real(from)?] };
+        let octave =
+            Octave { samples: of_octave, differences: [real(from)?, real(from)?, real(from)?], pixels: real(from)? };
         let mut layers = Vec::new();
         for _ in 0..number(from)? {
             let name = text(from)?;
@@ -216,8 +217,14 @@ impl FilmHead {
             && *self.samples.end() <= end
             && self.light_samples <= end
             && (self.octave.is_sound() && self.octave.samples <= whole)
+            && self.part.is_none_or(|_| self.octave == Octave::default())
             // What is added to them later does not overflow.
             && counters_as_array(self.counters).iter().all(|&count| count < 1 << 60)
+    }
+
+    /// Samples of a pixel at most.
+    pub(super) fn most(&self) -> u32 {
+        self.samples.end().saturating_sub(self.part.map_or(0, |part| part.first))
     }
 
     /// Bytes of memory that the film takes at most.

@@ -292,7 +292,7 @@ impl Film {
             return Err(FilmError::Damaged("it has changed since its head was read"));
         }
         let layers = head.film_layers()?;
-        let (held, most) = (head.held(&layers), *head.samples.end());
+        let (held, most) = (head.held(&layers), head.most());
         let Crop { x, y, width, .. } = head.crop;
         let columns = ((x + width).div_ceil(TILE) - x / TILE) as usize;
         // In the same columns, but further down.

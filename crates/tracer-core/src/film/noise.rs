@@ -15,9 +15,16 @@
 //! that at which D has fallen, at least one, that of independent samples, and at most two. With k samples more than h,
 //! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
 //! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
+//!
+//! Where few pixels bear the error, two pictures may agree by chance: of m pixels that err alike much, the standard
+//! deviation of what is seen of the variance is sqrt(2/m) of it. Below [`FEW`] such pixels, reckoned by
+//! m = (sum d^2)^2 / sum d^4 of the differences d, the noise is never told as less than that of independent samples.
 
 use super::{Film, PIXELS, Tile, luminance};
 use rayon::prelude::*;
+
+/// So many pixels tell the noise to an eighth of itself: half of sqrt(2/32).
+const FEW: f64 = 32.0;
 
 /// What is known of the noise from the last octave of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,6 +34,8 @@ pub(super) struct Octave {
     /// D: mean square difference between the luminance of the two halves of the samples, in squares of the film's unit;
     /// at so many samples, at half as many, and at a fourth. Zero where it is not known.
     pub differences: [f64; 3],
+    /// m: pixels that bear the first of these.
+    pub pixels: f64,
 }
 
 impl Octave {
@@ -55,14 +64,41 @@ impl Octave {
 
     /// Whether it is one that a file can hold.
     pub fn is_sound(&self) -> bool {
+        let [first, ..] = self.differences;
         (self.samples == 0 || self.samples.is_power_of_two())
-            && self.differences.iter().all(|&d| d >= 0.0 && d.is_finite())
+            && (self.samples > 1 || first == 0.0)
+            && self.differences.iter().chain([&self.pixels]).all(|&x| x >= 0.0 && x.is_finite())
     }
 }
 
 /// A number to 16 binary digits, as files have it: to 1e-5 of itself, which is below any noise that is asked for.
 fn shortened(x: f32) -> f32 {
     f32::from_bits(x.to_bits().saturating_add(0x80) & !0xff)
+}
+
+/// What pixels bear of a variance.
+#[derive(Clone, Copy, Default)]
+struct Borne {
+    sum: f64,
+    /// Of the squares.
+    squares: f64,
+}
+
+impl Borne {
+    fn add(&mut self, of_pixel: f64) {
+        self.sum += of_pixel;
+        self.squares += of_pixel * of_pixel;
+    }
+
+    fn merge(&mut self, other: &Borne) {
+        self.sum += other.sum;
+        self.squares += other.squares;
+    }
+
+    /// How many pixels that bear the same would make it as sure.
+    fn pixels(&self) -> f64 {
+        if self.squares > 0.0 { self.sum * self.sum / self.squares } else { 0.0 }
+    }
 }
 
 impl Film {
@@ -73,23 +109,30 @@ impl Film {
         if self.part.is_some() || !samples.is_power_of_two() || self.unfinished.is_some() {
             return;
         }
-        let Octave { samples: before, differences: [last, half, _] } = self.octave;
+        let Octave { samples: before, differences: [last, half, _], .. } = self.octave;
         let light = self.light_count();
         let put_down = |tile: &mut Tile| {
-            let mut sum = 0.0;
+            let mut borne = Borne::default();
             for pixel in 0..PIXELS {
                 let mean = tile.luminance(pixel, light);
                 // Of the first half and of the second.
                 let difference = mean - f64::from(tile.octave[pixel]);
-                sum += 4.0 * difference * difference;
+                borne.add(4.0 * difference * difference);
                 tile.octave[pixel] = shortened(mean as f32);
             }
-            sum
+            borne
         };
-        let sums: Vec<f64> = self.tiles.par_iter_mut().map(put_down).collect();
-        let difference = sums.iter().sum::<f64>() / self.count();
-        let differences = if before > 0 && samples == 2 * before { [difference, last, half] } else { [0.0; 3] };
-        self.octave = Octave { samples, differences };
+        // One after the other, so that threads cannot show.
+        let of_tiles: Vec<Borne> = self.tiles.par_iter_mut().map(put_down).collect();
+        let mut borne = Borne::default();
+        of_tiles.iter().for_each(|tile| borne.merge(tile));
+        self.octave = match before > 0 && samples == 2 * before {
+            true => {
+                let differences = [borne.sum / self.count(), last, half];
+                Octave { samples, differences, pixels: borne.pixels() }
+            }
+            false => Octave { samples, ..Octave::default() },
+        };
     }
 
     /// Pixels that it holds; one where there are none.
@@ -124,15 +167,20 @@ impl Film {
     }
 
     /// Root mean square over the pixels of their standard error, relative to the mean luminance: the noise of the
-    /// picture as one number. It is seen from how much pictures of other samples differ; of parts that were merged and
-    /// of less than two samples it is what independent samples would have, which is more.
+    /// picture as one number. It is seen from how much pictures of other samples differ; of parts that were merged it is
+    /// what independent samples would have, which is more. Zero where no pixel has two samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
         let mean = self.pixels().map(|(x, y)| luminance(self.radiance(x, y)) / self.unit).sum::<f64>() / self.count();
-        let variance = self.seen_variance().unwrap_or_else(|| {
+        let independent = || {
             let variance = |(x, y)| self.variance(x, y) / self.unit / self.unit;
             self.pixels().map(variance).sum::<f64>() / self.count()
-        });
+        };
+        let variance = match self.seen_variance() {
+            Some((seen, pixels)) if pixels >= FEW => seen,
+            Some((seen, _)) => seen.max(independent()),
+            None => independent(),
+        };
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
@@ -141,33 +189,36 @@ impl Film {
         self.octave.rate()
     }
 
-    /// Mean variance of the pixels in the sums' own unit, as the octaves tell it.
-    fn seen_variance(&self) -> Option<f64> {
-        let Octave { samples, differences } = self.octave;
+    /// Mean variance of the pixels in the sums' own unit, as the octaves tell it, and how many pixels bear it.
+    fn seen_variance(&self) -> Option<(f64, f64)> {
+        let Octave { samples, differences, pixels } = self.octave;
         if differences[0] <= 0.0 || self.has_gaps {
             return None;
         }
         let (rate, light) = (self.octave.rate(), self.light_count());
         let of_octave = differences[0] * Octave::of_difference(rate);
         let (mut last, mut factor) = (samples, None);
-        let mut sum = 0.0;
+        let (mut borne, mut by_octave) = (Borne::default(), 0.0);
         for (x, y) in self.pixels() {
             let (tile, pixel) = self.place(x, y);
             let n = tile.samples[pixel];
             if n != last {
                 (last, factor) = (n, self.octave.of_more(n.saturating_sub(samples), rate));
             }
-            sum += match factor {
+            // Light paths of other indices than the samples': of a pass that was ended early.
+            let is_apart = tile.splats.is_some() && light != n;
+            match factor.filter(|_| !is_apart) {
                 Some(factor) => {
                     // From the mean of all to that of those which came after.
                     let times = f64::from(n) / f64::from(n - samples);
                     let difference = (tile.luminance(pixel, light) - f64::from(tile.octave[pixel])) * times;
-                    factor * difference * difference
+                    borne.add(factor * difference * difference);
                 }
-                None => of_octave * f64::from(samples) / f64::from(n.max(1)),
-            };
+                None => by_octave += of_octave * f64::from(samples) / f64::from(n.max(1)),
+            }
         }
-        Some(sum / self.count())
+        let here = if borne.sum > 0.0 { borne.pixels() } else { pixels };
+        Some(((borne.sum + by_octave) / self.count(), here.min(pixels)))
     }
 }
 
@@ -191,7 +242,7 @@ mod tests {
             let variance = |n: u32| f64::from(n).powf(-rate);
             // D of the halves of n samples, by V(n) = (V(n/2) + C)/2.
             let difference = |n: u32| 4.0 * (variance(n / 2) - variance(n));
-            let octave = Octave { samples: 64, differences: [64, 32, 16].map(difference) };
+            let octave = Octave { samples: 64, differences: [64, 32, 16].map(difference), pixels: 64.0 };
             assert!((octave.rate() - rate).abs() < 1e-12);
             let seen = octave.differences[0] * Octave::of_difference(rate);
             assert!((seen / variance(64) - 1.0).abs() < 1e-12, "{rate}: {seen}");
@@ -201,7 +252,7 @@ mod tests {
             assert!(octave.of_more(15, rate).is_none() && octave.of_more(16, rate).is_some());
         }
         // What has not fallen, or is not known.
-        let rate = |differences| Octave { samples: 8, differences }.rate();
+        let rate = |differences| Octave { samples: 8, differences, pixels: 64.0 }.rate();
         assert_eq!([[1.0, 1.0, 1.0], [1.0, 0.0, 0.0], [0.0; 3], [1e-9, 1.0, 0.0]].map(rate), [1.0, 1.0, 1.0, 2.0]);
     }
 }

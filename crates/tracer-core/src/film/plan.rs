@@ -21,9 +21,14 @@ pub struct Plan {
 impl Plan {
     /// Whether a rendering can have been ended so.
     pub fn is_sound(&self) -> bool {
+        const MOST: u32 = 1_000_000_000;
         // A pass has one guide: it ends at a power of two at the latest.
         let latest = (u64::from(self.whole) + 1).next_power_of_two();
-        self.whole > 0 && self.whole < self.end && u64::from(self.end) <= latest && self.light <= self.end
+        self.whole > 0
+            && self.whole < self.end
+            && self.end <= MOST
+            && u64::from(self.end) <= latest
+            && self.light <= self.end
     }
 
     /// What of its last pass is to be done, where there are so many blocks.
@@ -69,7 +74,8 @@ impl FromStr for Plan {
 
 impl Film {
     /// Where it was ended within a pass by a time ([`crate::RenderOptions::until`]); `None` where all pixels have the
-    /// same samples, and where what is left is not all of one pass from some block on: an observer has ended that.
+    /// same samples, and where what is left is not all of one pass from some block on: an observer has ended that, or
+    /// it had gone on with a film that one had ended.
     pub fn plan(&self) -> Option<Plan> {
         let Unfinished { end, pieces } = self.unfinished.as_ref().filter(|_| self.part.is_none())?;
         let blocks = match &pieces[..] {
@@ -89,7 +95,18 @@ mod tests {
     fn plans_are_read_as_they_are_written() {
         let plan = Plan { whole: 64, end: 80, blocks: 1234, light: 70 };
         assert_eq!(plan.to_string().parse(), Ok(plan));
-        for bad in ["", "64", "64,80,1", "64,80,1,2,3", "0,1,0,0", "80,64,1,1", "64,200,1,1", "64,80,1,81", "a,b,c,d"] {
+        for bad in [
+            "",
+            "64",
+            "64,80,1",
+            "64,80,1,2,3",
+            "0,1,0,0",
+            "80,64,1,1",
+            "64,200,1,1",
+            "64,80,1,81",
+            "a,b,c,d",
+            "1,4294967295,2,1",
+        ] {
             assert_eq!(bad.parse::<Plan>(), Err(NoPlan), "{bad}");
         }
         // What is done and what is left are all.

@@ -226,9 +226,9 @@ impl Albedo {
             reader.report(Diagnostic::error(codes::TOO_MUCH, item.head(), message).expected("fewer"));
             return None;
         }
-        reader.textures.enter(at);
+        let before = reader.textures.enter(at);
         let words = PatternWords::read(reader, item, at);
-        reader.textures.leave();
+        reader.textures.leave(before);
         words.map(Albedo::of)
     }
 }

@@ -8,7 +8,7 @@ const MOST_TEXTURES: usize = 1024;
 /// Textures that are being read, one within the other; of one that was read, what it is made of.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Nested {
-    /// What the outermost is of.
+    /// What the outermost is of whose place in the one around it is no colour of that.
     of: Option<&'static FieldDef>,
     /// So many stand around what is read now.
     depth: usize,
@@ -42,12 +42,15 @@ impl Nested {
             .then(|| format!("a texture is made of more than {MOST_TEXTURES} others"))
     }
 
-    /// What is read from now on stands within one more, which is of this field.
-    pub fn enter(&mut self, at: &'static FieldDef) {
-        if self.depth == 0 {
+    /// What is read from now on stands within one more, which is of this field. What [`Nested::leave`] wants then.
+    pub fn enter(&mut self, at: &'static FieldDef) -> Option<&'static FieldDef> {
+        let before = self.of;
+        // What says how much of either of two colours counts, say, is no colour of what stands around it.
+        if self.depth == 0 || !at.rule.of_texture {
             self.of = Some(at);
         }
         self.depth += 1;
+        before
     }
 
     /// The field whose range a constant has: what stands in place of a texture's colour is what the texture is of, and
@@ -60,7 +63,8 @@ impl Nested {
     }
 
     /// That one has been read.
-    pub fn leave(&mut self) {
+    pub fn leave(&mut self, before: Option<&'static FieldDef>) {
+        self.of = before;
         self.depth -= 1;
     }
 }

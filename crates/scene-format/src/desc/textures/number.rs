@@ -8,7 +8,7 @@ use crate::schema::{FieldDef, Type};
 use crate::tree::Item;
 use crate::words::Words;
 
-/// A number, constant or by place: of a texture the luminance counts. A constant is a grey.
+/// A number, constant or by place: of a texture, and of a colour that a name stands for, the luminance counts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number(pub Albedo);
 
@@ -16,9 +16,14 @@ impl Number {
     /// The number, where it is the same everywhere.
     pub fn constant(&self) -> Option<f64> {
         match self.0.resolved() {
-            Albedo::Color(color) => Some(color.value[0]),
+            Albedo::Color(color) => Some(Number::of_color(color.value)),
             _ => None,
         }
+    }
+
+    /// The luminance of a colour; of a grey it is the grey, to the last bit.
+    pub fn of_color([r, g, b]: [f64; 3]) -> f64 {
+        (b - g) * 0.0722 + ((r - g) * 0.2126 + g)
     }
 
     /// Where the number stands; of a texture nowhere.

@@ -96,6 +96,8 @@ pub fn explain(
             observer: &Unobserved,
             pool: &pool,
             samples: sample + 1,
+            plan: None,
+            moves: true,
             before: Counted::default(),
             goals: Goals::new(scene, options),
             keeper: None,

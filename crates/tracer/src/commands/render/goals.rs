@@ -2,12 +2,13 @@
 
 use super::outputs::Output;
 use crate::args::RenderArgs;
+use crate::failure::Failure;
 use crate::progress::Goals;
 use crate::shell::Shell;
 use crate::write::Encoding;
 use scene_format::SceneDesc;
 use std::time::{Duration, Instant};
-use tracer_core::{Crop, Film};
+use tracer_core::{Crop, Film, Plan, Scene};
 
 /// The most samples where a goal is given on the command line and nothing else is said: the scene's own number is not
 /// for that.
@@ -55,6 +56,17 @@ pub fn described(args: &RenderArgs, desc: &mut SceneDesc) {
     if let Some(plan) = args.plan {
         (desc.render.noise, desc.render.time) = (None, None);
         desc.render.samples = plan.end.into();
+    }
+}
+
+/// A plan that no rendering of a scene with motion has told is refused.
+pub fn is_of_moments(plan: Option<Plan>, scene: &Scene) -> Result<(), Failure> {
+    match plan.filter(|plan| scene.moves() && plan.end != plan.whole + 1) {
+        Some(Plan { whole, .. }) => Err(Failure::wrong(format!(
+            "--plan: each sample of this scene sees a moment of its own, so the second number is {} here",
+            whole + 1
+        ))),
+        None => Ok(()),
     }
 }
 

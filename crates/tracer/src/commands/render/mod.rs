@@ -10,7 +10,7 @@ mod reference;
 pub(super) mod repeat;
 pub(super) mod rescue;
 
-use crate::args::{DenoiseName, IntegratorName, RenderArgs};
+use crate::args::{DenoiseArgs, DenoiseName, IntegratorName, RenderArgs};
 use crate::cache::Cache;
 use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told};
 use crate::denoising::{self, Denoiser, Developed};
@@ -109,6 +109,7 @@ fn one(
     let mut scene = AtEnd::new(compile(&desc, args.scene.diagnostics, known, shell)?, frames);
     // Not the one that a backdrop needs, unless it is asked for.
     let written_layers = tracer_core::layer_set(&desc.output.layers);
+    goals::is_of_moments(args.plan, &scene)?;
     denoising::prepare(&mut scene, args.denoise.is_on())?;
     // Only now it is known what the meshes' own materials name.
     outputs::spare_inputs(&outputs, args, &scene.files)?;
@@ -178,6 +179,9 @@ fn one(
         .transpose()?;
     let is_noisy = made.as_ref().is_some_and(|made| made.is_noisy(shell));
     let is_ended = made.as_ref().is_some_and(|made| made.is_ended);
+    // The picture is the one that comes without.
+    let denoise = if is_ended { DenoiseArgs { denoise: None } } else { args.denoise };
+    let args = &RenderArgs { denoise, ..args.clone() };
     if is_ended && frames.is_some() {
         return frames::unfinished(checkpoints.take().map(|checkpoints| checkpoints.end(&film)), shell);
     }
@@ -214,8 +218,10 @@ fn one(
     }
     let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
     let to_open = args.open.then(|| outputs::to_open(&files)).flatten();
-    let mut report =
-        args.report.is_some().then(|| report(args, &desc, &scene, &film, rendered, files, interrupted, &before));
+    let mut report = args
+        .report
+        .is_some()
+        .then(|| report(args, &desc, &scene, &film, rendered, files, interrupted || is_ended, &before));
     if let Some(report) = &mut report {
         report.scene.assets = assets_hash(notes);
         report.cache = cache.map(Cache::report);

@@ -1,7 +1,7 @@
 //! What textures say of a material beside its colour: how wide its lobes are, what share they have, another colour.
 //! Calls, since only scenes that have such pay for them.
 
-use crate::engine::stages::patterns::{At, pattern_color};
+use crate::engine::stages::patterns::{At, luminance, pattern_color};
 use crate::engine::stages::textures::texture_color;
 use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::V3;
@@ -111,10 +111,4 @@ impl<F: Lanes> Part<F> for Varying<'_, F> {
         }
         numbers
     }
-}
-
-/// 0.2126 R + 0.7152 G + 0.0722 B, of greys the very number.
-#[inline(always)]
-fn luminance<F: Lanes>(c: V3<F>) -> F {
-    F::splat(0.0722).fma(c.2 - c.1, F::splat(0.2126).fma(c.0 - c.1, c.1))
 }

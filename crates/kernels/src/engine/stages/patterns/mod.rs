@@ -29,6 +29,12 @@ pub fn pattern_color<F: Lanes>(scene: &Scene, id: F::U, at: At<F>, normal: V3<F>
     F::apart(program::Mixed { scene, id, at, normal, mask })
 }
 
+/// 0.2126 R + 0.7152 G + 0.0722 B, of greys the very number.
+#[inline(always)]
+pub fn luminance<F: Lanes>(c: V3<F>) -> F {
+    F::splat(0.0722).fma(c.2 - c.1, F::splat(0.2126).fma(c.0 - c.1, c.1))
+}
+
 /// Where a surface is met. A copy of what parts need: were they handed the surface, it would lie in memory everywhere.
 #[derive(Clone, Copy)]
 pub struct At<F: Lanes> {

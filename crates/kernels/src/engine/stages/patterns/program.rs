@@ -1,7 +1,7 @@
 //! Textures made of others, step by step. Lanes with one program do its steps together, so that no step has to be
 //! looked up lane by lane: as many rounds as there are programs among the lanes, and hardly ever are there two.
 
-use super::{At, Lookup, mapped, on_sphere, vertex_color};
+use super::{At, Lookup, luminance, mapped, on_sphere, vertex_color};
 use crate::engine::stages::textures::texture_color;
 use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::{V3, exp, ln};
@@ -145,12 +145,6 @@ fn at<F: Lanes>(places: &[V3<F>; PLACES], place: u8) -> V3<F> {
 #[inline(always)]
 fn splat<F: Lanes>(color: [f64; 3]) -> V3<F> {
     V3::splat([color[0] as f32, color[1] as f32, color[2] as f32])
-}
-
-/// 0.2126 R + 0.7152 G + 0.0722 B, of greys the very number.
-#[inline(always)]
-fn luminance<F: Lanes>(c: V3<F>) -> F {
-    F::splat(0.0722).fma(c.2 - c.1, F::splat(0.2126).fma(c.0 - c.1, c.1))
 }
 
 /// The colour at x between stops that never fall, the first and the last beyond them.
