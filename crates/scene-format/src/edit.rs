@@ -40,6 +40,7 @@ impl Viewpoint {
 
 /// Why a camera cannot be written into a text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ViewpointError {
     /// The text has faults.
     #[error("the scene has errors; mend them first")]

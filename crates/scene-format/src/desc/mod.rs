@@ -6,6 +6,9 @@
 //!
 //! The types are declared by the macros of `words`: the doc comments, defaults and ranges that stand here are the ones
 //! that the reader goes by and that the reference and the JSON Schema show.
+//!
+//! The enums are exhaustive on purpose: whoever walks a scene wants the compiler to name the kinds that he has not
+//! thought of. So a new kind, field or word comes with a new minor version (0.2 after 0.1), never with a patch.
 
 mod animation;
 mod background;

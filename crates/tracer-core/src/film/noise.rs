@@ -16,15 +16,15 @@
 //! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
 //! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
 //!
-//! Where few pixels bear the error, two pictures may agree by chance: of m pixels that err alike much, the standard
-//! deviation of what is seen of the variance is sqrt(2/m) of it. Below [`FEW`] such pixels, reckoned by
-//! m = (sum d^2)^2 / sum d^4 of the differences d, the noise is never told as less than that of independent samples.
+//! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
+//! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
+//! third of such n, by Gauss. Below [`FEW`], the noise is never told as less than that of independent samples.
 
 use super::{Film, PIXELS, Tile, luminance};
 use rayon::prelude::*;
 
-/// So many pixels tell the noise to an eighth of itself: half of sqrt(2/32).
-const FEW: f64 = 32.0;
+/// m of eighteen pixels: they tell the noise to a sixth of itself, half of sqrt(2/18).
+const FEW: f64 = 6.0;
 
 /// What is known of the noise from the last octave of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

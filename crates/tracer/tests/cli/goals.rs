@@ -51,12 +51,6 @@ fn a_time_ends_the_rendering_with_all_written() {
     assert!(first["picture"]["samples_min"].as_u64().is_some_and(|samples| samples > 0));
     assert_eq!(first["interrupted"], false);
     assert!(!sandbox.read("a.png").is_empty());
-    // As the report says, and as the picture tells: the same bytes.
-    let plan = first["command"].as_str().and_then(|command| command.split(" --plan ").nth(1));
-    if let Some(plan) = plan.map(|plan| plan.split(' ').next().unwrap_or(plan)) {
-        sandbox.run(&["render", "scene.ron", "-o", "again.png", "--plan", plan, "-j", "1"]).ends(0);
-        assert_eq!(sandbox.read("a.png"), sandbox.read("again.png"));
-    }
     sandbox.run(&["repro", "a.png"]).ends(0).says(&["the same bytes"]);
     // What was rendered goes on.
     sandbox
@@ -68,4 +62,37 @@ fn a_time_ends_the_rendering_with_all_written() {
     sandbox.run(&["render", "scene.ron", "-o", "c.png", "--time", "1h", "--samples", "2"]).ends(0);
     sandbox.run(&["render", "scene.ron", "-o", "d.png", "--samples", "2"]).ends(0);
     assert_eq!(sandbox.read("c.png"), sandbox.read("d.png"));
+}
+
+/// A time may end it between two passes, too, and then there is no plan: until one is told.
+#[test]
+fn what_a_time_has_ended_is_made_again_by_its_plan() {
+    let sandbox = Sandbox::new();
+    let plan = (0..40).find_map(|k| {
+        let time = format!("{}ms", 200 + 37 * k);
+        sandbox.run(&["render", "scene.ron", "-o", "a.png", "--time", &time, "--report", "a.json"]).ends(0);
+        let told = report(&sandbox, "a.json");
+        let plan = told["command"].as_str()?.split(" --plan ").nth(1)?;
+        Some(plan.split(' ').next().unwrap_or(plan).to_owned())
+    });
+    let plan = plan.expect("one of forty is ended within a pass");
+    sandbox.run(&["render", "scene.ron", "-o", "again.png", "--plan", &plan, "-j", "1"]).ends(0);
+    assert_eq!(sandbox.read("a.png"), sandbox.read("again.png"));
+    sandbox.run(&["repro", "a.png"]).ends(0).says(&["the same bytes"]);
+}
+
+#[test]
+fn a_plan_is_the_same_bytes_on_any_threads() {
+    let sandbox = Sandbox::new();
+    for (threads, name) in [("1", "a.png"), ("2", "b.png"), ("3", "c.png")] {
+        let line = ["render", "scene.ron", "-o", name, "--plan", "8,16,1,8", "-j", threads, "--report", "a.json"];
+        sandbox.run(&line).ends(0);
+        let picture = &report(&sandbox, "a.json")["picture"];
+        assert_eq!([&picture["samples_min"], &picture["samples_max"]], [8, 16]);
+        assert_eq!(sandbox.read("a.png"), sandbox.read(name));
+    }
+    sandbox.run(&["repro", "b.png"]).ends(0).says(&["the same bytes"]);
+    for bad in ["8,16,1", "0,1,1,1", "1,4294967295,2,1"] {
+        sandbox.run(&["render", "scene.ron", "-o", "e.png", "--plan", bad]).ends(2).says(&["four numbers"]);
+    }
 }

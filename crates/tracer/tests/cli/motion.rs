@@ -41,6 +41,20 @@ fn frames_parts_and_checkpoints_are_the_picture() {
     assert_eq!(sandbox.read("merged.pfm"), sandbox.read("alone.pfm"));
 }
 
+/// Each sample is a pass of its own.
+#[test]
+fn a_plan_ends_within_one_sample() {
+    let sandbox = film();
+    let render = |plan: &str, threads: &str, name: &str| {
+        sandbox.run(&["render", "film.ron", "--frame", "2", "-o", name, "--plan", plan, "-j", threads])
+    };
+    render("4,8,1,4", "1", "a.png").ends(2).says(&["the second number is 5 here"]);
+    render("4,5,1,4", "1", "a.png").ends(0);
+    render("4,5,1,4", "2", "b.png").ends(0);
+    assert_eq!(sandbox.read("a.png"), sandbox.read("b.png"));
+    sandbox.run(&["repro", "a.png"]).ends(0).says(&["the same bytes"]);
+}
+
 /// What goes by samples or by what is hit goes by moments, too: the same bytes by other threads and after a checkpoint.
 #[test]
 fn what_is_made_beside_the_picture_is_the_same_however_it_is_rendered() {
