@@ -1,6 +1,8 @@
 //! Loading from the file system: extensions, files that are not there, materials beside an OBJ file.
 
-use scene_format::desc::{Albedo, BlinnPhong, Diffuse, Material, Mirror, TextureWrap, Transparent};
+use scene_format::desc::{
+    Albedo, Amount, BlinnPhong, Diffuse, Emissive, LightGroup, Material, Mirror, TextureWrap, Transparent,
+};
 use scene_format::diagnostic::Span;
 use std::fs;
 use std::path::Path;
@@ -126,12 +128,23 @@ fn glass(ior: f64, transmittance: [f64; 3]) -> Material {
     Material::Transparent(Box::new(Transparent { ior: ior.into(), transmittance: transmittance.into() }))
 }
 
+fn emissive(radiance: [f64; 3]) -> Material {
+    Material::Emissive(Box::new(Emissive {
+        amount: Amount::Radiance(radiance).into(),
+        color: [1.0; 3],
+        two_sided: true,
+        group: LightGroup::default(),
+    }))
+}
+
 #[test]
 fn materials_of_mtl_become_ours() {
     let silent = String::new;
     for (mtl, expected, said) in [
         ("", diffuse([0.8; 3]), silent()),
         ("Ka 1 1 1\nKd 0.1 0.2 0.3\nKe 0 0 0\nillum 1\nKs 1 1 1\nNs 10", diffuse([0.1, 0.2, 0.3]), silent()),
+        ("Kd 0.5\nKe 3 2 1\nillum 2\nKs 1 1 1\nNs 10", emissive([3.0, 2.0, 1.0]), silent()),
+        ("Ke 5 -1 0", emissive([5.0, 0.0, 0.0]), "not supported: `Ke` outside 0 to 1e30 (clipped)".into()),
         ("\tKd 0.5\r", diffuse([0.5; 3]), silent()),
         ("Kd 0.5 0.5 0.5\nKs 0 0 0\nNs 100\nillum 2", diffuse([0.5; 3]), silent()),
         ("Kd 0.5 0.5 0.5\nKs 0.25 0.25 0.25\nNs 100\nillum 2", blinn_phong([0.75; 3], 0.25 / 0.75, 100.0), silent()),
@@ -164,9 +177,9 @@ fn materials_of_mtl_become_ours() {
         ("Tr 0", diffuse([0.8; 3]), silent()),
         ("Tr 1", glass(1.5, [1.0; 3]), silent()),
         (
-            "Kd 2 0.5 -1\nmap_Bump -bm 2 b.png\nKe 1 0 0\nPr 0.5\nPm 0\nd -halo 1",
+            "Kd 2 0.5 -1\nmap_Bump -bm 2 b.png\nmap_Ke e.png\nPr 0.5\nPm 0\nd -halo 1",
             diffuse([1.0, 0.5, 0.0]),
-            "not supported: `Kd` outside 0 to 1 (clipped), `Ke`, `Pr`, `d -halo`, `map_Bump`".into(),
+            "not supported: `Kd` outside 0 to 1 (clipped), `Pr`, `d -halo`, `map_Bump`, `map_Ke`".into(),
         ),
         ("Kd spectral x.rfl 1", diffuse([0.8; 3]), "not supported: `Kd spectral`".into()),
         ("map_Kd none.png\nKd 0.1 0.1 0.1", diffuse([0.1; 3]), "no such picture (`Kd` is taken): none.png".into()),

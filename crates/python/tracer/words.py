@@ -245,7 +245,7 @@ class Render(TypedDict, total=False):
     caustics: How light comes over mirrors and glass to diffuse surfaces.
     indirect: How light comes to second vertices over further surfaces.
     clamp: The most that one camera sample counts: where the largest channel of what it has found, lamps in view included, is more than this (before exposure), all three are scaled down together, so that the hue stays. That takes fireflies, and their light with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing. What one light path brings (`caustics`) counts at most as much; a caustic of many may be brighter. Unit: W/(sr m^2).
-    noise: The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their standard error, relative to the mean luminance, as the report has it. 0.01 is hardly seen. It is a bound from above, since samples are stratified: 1.2 to 2.1 times the true error on figures 4, 6 and 8, more where the edge of a bright lamp is in view (4.6 in Cornell's box). `samples` are the most. It is looked at with 16, 32, 64, 128, 192, .. samples, so the picture depends on nothing else. `None`: all samples.
+    noise: The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their standard error, relative to the mean luminance, as the report has it. 0.01 is hardly seen. It is told by how two halves of the samples differ: 0.8 to 1.2 times the true error (docs/noise.md). `samples` are the most. It is looked at after whole passes only, four times while the samples double, so the picture depends on nothing else. `None`: all samples.
     time: The rendering ends when the program has run so long. `samples` are the most. `None`: all samples. Unit: seconds.
     """
 
@@ -399,13 +399,17 @@ class _SphereLightRequired(TypedDict):
 
 
 class SphereLight(_SphereLightRequired, total=False):
-    """A luminous sphere; it emits and does not reflect. How much it emits is said by exactly one of `intensity`, `radiance` and `power`.
+    """A luminous sphere; it emits and does not reflect. How much it emits is said by exactly one of `intensity`, `radiance` and `power`, or, as people see it, of `luminous_intensity`, `luminance` and `luminous_power`.
 
     center: Centre. Unit: the scene's unit.
     radius: Radius. Unit: the scene's unit.
     intensity: Radiant intensity: L = I / (pi r^2). Unit: W/sr.
     radiance: Radiance L of every point of the sphere. Unit: W/(sr m^2).
     power: Power: L = P / (4 pi^2 r^2). Unit: W.
+    luminous_intensity: Luminous intensity: 683 times the luminance Y of an intensity in W/sr. Unit: cd.
+    luminance: Luminance: 683 Y of a radiance. Unit: cd/m^2.
+    luminous_power: Luminous flux, as lamps are sold: 683 Y of a power. A bulb of 60 W in old times is one of 800 lm. Unit: lm.
+    color: The colour of the light. Only what it is beside its own luminance counts: the amount times color / Y(color). `"=blackbody(2700)"` is that of a bulb.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still shines, and is seen in mirrors and through glass.
     name: What it is called: `--set lights.NAME.radius=2` finds it where no other has this name.
     group: The group of lights that it is of: with `output.light_groups`, what each group brings to the picture is told apart. Several may have one.
@@ -414,6 +418,10 @@ class SphereLight(_SphereLightRequired, total=False):
     intensity: Any
     radiance: Any
     power: Any
+    luminous_intensity: Any
+    luminance: Any
+    luminous_power: Any
+    color: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
     camera_visible: Either[bool, str, PickItem]
     name: Any
     group: Any
@@ -805,16 +813,26 @@ class Conductor(TypedDict, total=False):
 Metal = Literal["Silver", "Gold", "Copper", "Aluminum", "Iron", "Chromium", "Nickel", "Titanium", "Brass", "Platinum", "Steel"]
 
 class Emissive(TypedDict, total=False):
-    """A surface that shines and reflects nothing: whatever shape has it is a light. How much it shines is said by exactly one of `radiance` and `power`.
+    """A surface that shines and reflects nothing: whatever shape has it is a light. How much it shines is said by exactly one of `radiance`, `power` and `intensity`, or, as people see it, of `luminance`, `luminous_power` and `luminous_intensity`.
 
     radiance: Radiance L of every point, in all directions. Unit: W/(sr m^2).
     power: Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`). Unit: W.
+    intensity: Radiant intensity of each copy: of `Rectangle`, `Disk` and `Polygon` along the normal, L = I / A, A the area of one side; of `Sphere` L = 4 I / A, the mean over all directions where it was scaled unequally. Other shapes have none. Unit: W/sr.
+    luminance: Luminance of every point: 683 times the luminance Y of a radiance. Unit: cd/m^2.
+    luminous_power: Luminous flux of each copy, as lamps are sold: 683 Y of a power. Unit: lm.
+    luminous_intensity: Luminous intensity of each copy: 683 Y of an intensity. Unit: cd.
+    color: The colour of the light. Only what it is beside its own luminance counts: the amount times color / Y(color). `"=blackbody(2700)"` is that of a bulb.
     two_sided: Whether it shines to both sides; else only to the normal's: outwards.
     group: The group of lights that what shines so is of: with `output.light_groups`, what each group brings to the picture is told apart.
     """
 
     radiance: Any
     power: Any
+    intensity: Any
+    luminance: Any
+    luminous_power: Any
+    luminous_intensity: Any
+    color: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
     two_sided: Either[bool, str, PickItem]
     group: Any
 

@@ -409,7 +409,7 @@ fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> LoadError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::desc::{Emission, Light, MaterialRef, Object, Transform};
+    use crate::desc::{Amount, Light, MaterialRef, Object, Transform};
 
     const RON: &str = r#"Scene(
         camera: Camera(position: (0, 0, 55), fov: 60),
@@ -447,7 +447,7 @@ mod tests {
         assert_eq!(SceneDesc { sources: Vec::new(), ..ron.clone() }, SceneDesc { sources: Vec::new(), ..toml });
         assert_eq!(ron.camera.fov.value, 60.0);
         let Light::SphereLight(light) = &ron.lights[0].value;
-        assert_eq!(light.emission.value, Emission::Intensity([3974.0; 3]));
+        assert_eq!(light.amount.value, Amount::Intensity([3974.0; 3]));
         let Object::Mesh(mesh) = &ron.objects[1].value else { panic!("the second object is a mesh") };
         assert_eq!(mesh.material, MaterialRef::Default);
         assert_eq!(mesh.transform[0].value, Transform::Scale { factor: [0.8; 3], about: None });

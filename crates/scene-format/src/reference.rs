@@ -220,8 +220,9 @@ A mesh from an OBJ file without a `material` in the scene has those of its MTL f
 
 | MTL | material |
 |---|---|
-| `illum` 4, 6, 7 or 9, or `d` below 1 (or `Tr` above 0 without `d`) | `Transparent`: `ior` is `Ni` (1.5 where there \
-is none), `transmittance` is `Tf` |
+| `Ke` not black | `Emissive(two_sided: true)`: `radiance` is `Ke`; what shines so reflects nothing |
+| else `illum` 4, 6, 7 or 9, or `d` below 1 (or `Tr` above 0 without `d`) | `Transparent`: `ior` is `Ni` (1.5 where \
+there is none), `transmittance` is `Tf` |
 | else `illum` 3 or 5, and `Ks` not black | `Mirror`: `reflectance` is `Ks` (1 where there is none) |
 | else `Ks` not black and `Ns` above 0, `illum` neither 0 nor 1 | `BlinnPhong`: `albedo` is `Kd` + `Ks`, `specular` \
 the share of `Ks` in it, `exponent` is `Ns` |
@@ -229,9 +230,8 @@ the share of `Ks` in it, `exponent` is `Ns` |
 
 `map_Kd` replaces the albedo by a picture. Colours are linear RGB. `Ka` is passed over, since light from all around is \
 computed here. All
-else (`Ke`, other maps, `d` between 0 and 1) is not taken, and W0511 says so once for a mesh, with the materials' \
-names: what shines is an object
-with `material: Emissive(radiance: ..)`.
+else (other maps, `d` between 0 and 1) is not taken, and W0511 says so once for a mesh, with the materials' \
+names.
 
 Glass needs to know where its inside is: seen from outside, the corners of a face go round counterclockwise (W0305 \
 tells of meshes that
@@ -401,7 +401,7 @@ fn table(out: &mut String, def: &'static StructDef) {
             out,
             "| `{}` | {} | {} | {} |",
             field.name,
-            value(field).replace('|', "\\|"),
+            value(field, def).replace('|', "\\|"),
             default(field, def),
             prose(field.doc)
         );
@@ -411,7 +411,7 @@ fn table(out: &mut String, def: &'static StructDef) {
     }
 }
 
-fn value(field: &FieldDef) -> String {
+fn value(field: &FieldDef, def: &StructDef) -> String {
     if let Type::List(inner) = field.kind
         && let Type::Enum(def) = inner.resolved()
     {
@@ -444,6 +444,8 @@ fn value(field: &FieldDef) -> String {
         Type::OneOf([Type::List(_), Type::File]) => {
             format!("list of lists of {}, or a file name", link("Transform"))
         }
+        // Of several one has to be.
+        _ if def.exactly_one.contains(&field.name) => expected(field).replace(", or None", ""),
         _ => expected(field),
     }
 }

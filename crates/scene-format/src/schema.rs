@@ -326,6 +326,11 @@ impl Rule {
         Rule { color: true, unit, ..Rule::within("a colour", 0.0, MAX_LIGHT) }
     }
 
+    /// Light as people see it.
+    pub const fn amount(what: &'static str, unit: &'static str) -> Rule {
+        Rule { unit, ..Rule::within(what, 0.0, MAX_LIGHT) }
+    }
+
     /// A number for each channel, or one that a texture gives, none of which is light.
     pub const fn per_channel(what: &'static str, low: f64, high: f64) -> Rule {
         Rule { color: true, ..Rule::within(what, low, high) }

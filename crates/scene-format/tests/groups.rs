@@ -167,7 +167,7 @@ fn a_name_leads_to_what_it_names_wherever_that_stands() {
     let lit = r#"Scene(lights: [SphereLight(center: (0, 5, 0), radius: 1, power: 9, name: "sun")], objects: [Box()])"#;
     let scene = set(lit, &["lights.sun.power=20"]).expect("a light");
     let scene_format::desc::Light::SphereLight(sun) = &scene.lights[0].value;
-    assert_eq!(sun.emission.value, scene_format::desc::Emission::Power([20.0; 3]));
+    assert_eq!(sun.amount.value, scene_format::desc::Amount::Power([20.0; 3]));
     // A light of a group is a light, too, whether the scene has lights of its own or none.
     for own in ["", "lights: [SphereLight(center: (0, 5, 0), radius: 1, power: 9)],"] {
         let bulb = "SphereLight(center: (0, 1, 0), radius: 1, power: 9, name: \"bulb\")";

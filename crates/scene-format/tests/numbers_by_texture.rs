@@ -9,9 +9,9 @@ type Faults = Vec<(String, String)>;
 
 fn load(material: &str) -> Result<Material, Faults> {
     let text = format!(
-        "Scene(background: 1, textures: {{ \"dots\": Dots(b: 0.5), \"tint\": (0.1, 0.5, 0.9), \"grey\": 0.3 }}, objects: \
-         [Sphere(center: (0, 0, 0), radius: 1, material: {material}), Box(material: Diffuse(albedo: Mix(a: \"dots\", b: \
-         \"tint\", weight: \"grey\")))])"
+        "Scene(background: 1, textures: {{ \"dots\": Dots(b: 0.5), \"tint\": (0.1, 0.5, 0.9), \"grey\": 0.3 }}, \
+         objects: [Sphere(center: (0, 0, 0), radius: 1, material: {material}), \
+         Box(material: Diffuse(albedo: Mix(a: \"dots\", b: \"tint\", weight: \"grey\")))])"
     );
     match load_str("numbers.ron", &text, Syntax::Ron, Path::new(""), &[]) {
         Ok(loaded) => match loaded.scene.objects[0].value.material() {

@@ -115,7 +115,10 @@ fn what_does_not_fit_is_no_edit() {
         ("Sphere(center: (0, 0, 0), radius: 1, diameter: 2)".to_owned(), "`radius` is written already"),
         ("Sphere(center: (0, 0, 0), raduis: (1, 2))".to_owned(), "`radius`, which takes a length"),
         ("Torus(outer: 1, inner: 0.5)".to_owned(), "`tube_radius`"),
-        ("Box(min: (0, 0, 0), size: 1, max: (1, 1, 1))".to_owned(), "write `center: (x, y, z), size: (x, y, z)`"),
+        (
+            "Box(min: (0, 0, 0), size: 1, max: (1, 1, 1))".to_owned(),
+            "`size` is written already: leave these out, or write all of it as `center: (x, y, z), size: (x, y, z)`",
+        ),
     ];
     let mut wrong = Vec::new();
     for (object, way) in &cases {

@@ -326,7 +326,8 @@ fn kinds_of_lights() {
         ("SpotLight(position: (0, 1, 0))", "there is no spotlight"),
         ("AreaLight(size: 1)", "Emissive(radiance: 5)"),
         ("PointLight(position: (0, 5, 0), intensity: 3)", "`SphereLight(center: .., radius: .., power: ..)`"),
-        ("SphereLight(center: (0, 5, 0), radius: 1, color: (1, 1, 1))", "per channel"),
+        ("SphereLight(center: (0, 5, 0), radius: 1, tint: (1, 1, 1))", "per channel"),
+        ("SphereLight(center: (0, 5, 0), radius: 1, lumens: 800)", "`luminous_power`"),
         ("SphereLight(center: (0, 5, 0), radius: 1, brightness: 3)", "`radiance`"),
     ];
     check(&cases, |light| scene(&format!("lights: [{light}],"), "", ""));

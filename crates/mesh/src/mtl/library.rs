@@ -28,6 +28,8 @@ pub(super) struct MtlMaterial {
     pub(super) ior: Option<f64>,
     /// `d`, or 1 - `Tr` where there is no `d`.
     pub(super) opacity: Option<f64>,
+    /// `Ke`.
+    pub(super) emission: Option<Color>,
     /// `Tf`.
     pub(super) transmission: Option<Color>,
     /// `illum`.
@@ -86,6 +88,7 @@ impl MtlMaterial {
         match word {
             b"Kd" => self.diffuse = self.parse_color("Kd", cursor)?.or(self.diffuse),
             b"Ks" => self.specular = self.parse_color("Ks", cursor)?.or(self.specular),
+            b"Ke" => self.emission = self.parse_color("Ke", cursor)?.or(self.emission),
             b"Tf" => self.transmission = self.parse_color("Tf", cursor)?.or(self.transmission),
             b"Ns" => self.exponent = Some(parse_number(cursor)?),
             b"Ni" => self.ior = Some(parse_number(cursor)?),
@@ -194,7 +197,7 @@ impl Values {
     }
 }
 
-/// Whether a statement that is not known here has only zeros (`Ke 0 0 0`), so that leaving it out changes nothing.
+/// Whether a statement that is not known here has only zeros (`Pm 0`), so that leaving it out changes nothing.
 fn says_nothing(cursor: &mut Cursor) -> bool {
     while !cursor.is_at_end_of_statement() {
         if cursor.number().ok() != Some(0.0) {

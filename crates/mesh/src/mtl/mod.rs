@@ -2,6 +2,7 @@
 //!
 //! What is true first, counts:
 //!
+//! - `Ke` not black: emissive, to both sides, `radiance` = `Ke`; such surfaces reflect nothing;
 //! - `illum` 4, 6, 7 or 9, or `d` < 1 (or `Tr` > 0 without `d`): transparent, `ior` = `Ni` (1.5 if absent),
 //!   `transmittance` = `Tf`;
 //! - `illum` 3 or 5, and `Ks` not black: a mirror, `reflectance` = `Ks` (1 if absent);
@@ -24,7 +25,8 @@ use library::{Library, MtlMaterial};
 use scene_format::Diagnostic;
 use scene_format::codes;
 use scene_format::desc::{
-    Albedo, BlinnPhong, Color, Diffuse, Material, Mirror, NamedMaterial, Texture, TextureWrap, Transparent,
+    Albedo, Amount, BlinnPhong, Color, Diffuse, Emissive, LightGroup, Material, Mirror, NamedMaterial, Texture,
+    TextureWrap, Transparent,
 };
 use scene_format::diagnostic::Span;
 use std::collections::{BTreeMap, BTreeSet};
@@ -191,10 +193,7 @@ impl Notes {
         (!parts.is_empty()).then(|| {
             let message = format!("the mesh's own materials are taken only in part: {}", parts.join("; "));
             Diagnostic::warning(codes::MTL_UNSUPPORTED, Span::NONE, message)
-                .hint(match self.unsupported.contains_key("`Ke`") {
-                    true => "what shines (`Ke`) is an object with `material: Emissive(radiance: ..)` in the scene",
-                    false => "a `material` in the scene replaces those of the file",
-                })
+                .hint("a `material` in the scene replaces those of the file")
                 .at_line(path, 0)
         })
     }
@@ -215,6 +214,14 @@ fn of_materials(what: &str, materials: &BTreeSet<String>) -> String {
 fn turn(mtl: &MtlMaterial, files: &Files, notes: &mut Notes) -> Material {
     for statement in &mtl.unsupported {
         notes.unsupported(statement);
+    }
+    if let Some(emission) = mtl.emission.map(|color| light("Ke", color, notes)).filter(|color| *color != [0.0; 3]) {
+        return Material::Emissive(Box::new(Emissive {
+            amount: Amount::Radiance(emission).into(),
+            color: [1.0; 3],
+            two_sided: true,
+            group: LightGroup::default(),
+        }));
     }
     let diffuse = mtl.diffuse.map(|color| clipped("Kd", color, notes));
     let specular = mtl.specular.map(|color| clipped("Ks", color, notes));
@@ -287,6 +294,16 @@ fn picture_of(mtl: &MtlMaterial, diffuse: Option<Color>, files: &Files, notes: &
     }
     let wrap = if picture.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat };
     Some(Albedo::Texture(Texture { wrap, ..Texture::of(file.into()) }))
+}
+
+/// Light that a scene can have.
+fn light(statement: &str, color: Color, notes: &mut Notes) -> Color {
+    const MOST: f64 = 1e30;
+    let within = color.map(|channel| channel.clamp(0.0, MOST));
+    if within != color {
+        notes.unsupported(&format!("`{statement}` outside 0 to 1e30 (clipped)"));
+    }
+    within
 }
 
 fn clipped(statement: &str, color: Color, notes: &mut Notes) -> Color {

@@ -5,8 +5,8 @@
 //! copies is a mesh with a thousand copies. Lights of a group are spheres that shine to both sides, which is the same.
 
 use super::{
-    Amount, Emission, Emissive, Groups, IncludeWords, Light, Material, MaterialRef, Moved, Name, Object, Placements,
-    Sphere, Transform, Within,
+    Amount, Emissive, Groups, IncludeWords, Light, Material, MaterialRef, Moved, Name, Object, Placements, Sphere,
+    Transform, Within,
 };
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Span, Spanned};
@@ -233,14 +233,17 @@ pub(crate) fn moved(
 pub(crate) fn of_light(light: Spanned<Light>) -> Spanned<Object> {
     let span = light.span;
     let Light::SphereLight(light) = light.value;
-    let amount = match light.emission.value {
-        Emission::Radiance(color) => Amount::Radiance(color),
-        // What it gives outwards; the material's power is that of both sides.
-        Emission::Power(color) => Amount::Power(color.map(|power| 2.0 * power)),
-        Emission::Intensity(color) => Amount::Power(color.map(|intensity| 8.0 * std::f64::consts::PI * intensity)),
+    // What it gives outwards; the material's power is that of both sides.
+    let amount = match light.amount.value {
+        Amount::Power(_) | Amount::LuminousPower(_) => light.amount.value.scaled(2.0),
+        other => other,
     };
-    let emissive =
-        Emissive { amount: Spanned { value: amount, span: light.emission.span }, two_sided: true, group: light.group };
+    let emissive = Emissive {
+        amount: Spanned { value: amount, span: light.amount.span },
+        color: light.color,
+        two_sided: true,
+        group: light.group,
+    };
     let material = Spanned { value: Material::Emissive(Box::new(emissive)), span };
     let sphere = Sphere {
         center: light.center,

@@ -1,6 +1,7 @@
 //! Lights.
 
-use super::{Color, LightGroup, Name, Vec3};
+use super::amount::{amount_of, put_amount};
+use super::{Amount, Color, LightGroup, Name, Radiometric, Vec3};
 use crate::diagnostic::Spanned;
 use crate::form::Form;
 use crate::read::Reader;
@@ -53,8 +54,10 @@ pub struct SphereLight {
     pub center: Spanned<Vec3>,
     /// Radius.
     pub radius: Spanned<f64>,
-    /// How much light.
-    pub emission: Spanned<Emission>,
+    /// How much light. Of an intensity L = I / (pi r^2), of a power L = P / (4 pi^2 r^2).
+    pub amount: Spanned<Amount>,
+    /// Its colour, as far as it differs from its luminance.
+    pub color: Color,
     /// Whether the camera sees it.
     pub camera_visible: bool,
     /// What it is called.
@@ -63,21 +66,18 @@ pub struct SphereLight {
     pub group: LightGroup,
 }
 
-/// How much light a luminous sphere gives, per channel.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Emission {
-    /// Radiant intensity in W/sr: L = I / (pi r^2).
-    Intensity(Color),
-    /// Radiance in W/(sr m^2).
-    Radiance(Color),
-    /// Power in W: L = P / (4 pi^2 r^2).
-    Power(Color),
+impl SphereLight {
+    /// How much light, per channel.
+    pub fn radiometric(&self) -> Radiometric {
+        self.amount.value.radiometric(self.color)
+    }
 }
 
 scene_struct! {
     /// A luminous sphere; it emits and does not reflect. How much it emits is said by exactly one of `intensity`,
-    /// `radiance` and `power`.
-    pub(crate) struct SphereLightWords as "SphereLight", "a sphere light", exactly one of [intensity, radiance, power] {
+    /// `radiance` and `power`, or, as people see it, of `luminous_intensity`, `luminance` and `luminous_power`.
+    pub(crate) struct SphereLightWords as "SphereLight", "a sphere light",
+        exactly one of [intensity, radiance, luminous_intensity, luminance, luminous_power, power] {
         /// Centre.
         center: Spanned<Vec3> => Rule::point();
         /// Radius.
@@ -88,6 +88,15 @@ scene_struct! {
         radiance: Option<Spanned<Color>> = None => Rule::light("in W/(sr m^2)");
         /// Power: L = P / (4 pi^2 r^2).
         power: Option<Spanned<Color>> = None => Rule::light("in W");
+        /// Luminous intensity: 683 times the luminance Y of an intensity in W/sr.
+        luminous_intensity: Option<Spanned<f64>> = None => Rule::amount("a luminous intensity", "in cd");
+        /// Luminance: 683 Y of a radiance.
+        luminance: Option<Spanned<f64>> = None => Rule::amount("a luminance", "in cd/m^2");
+        /// Luminous flux, as lamps are sold: 683 Y of a power. A bulb of 60 W in old times is one of 800 lm.
+        luminous_power: Option<Spanned<f64>> = None => Rule::amount("a luminous flux", "in lm");
+        /// The colour of the light. Only what it is beside its own luminance counts: the amount times color / Y(color).
+        /// `"=blackbody(2700)"` is that of a bulb.
+        color: Color = [1.0; 3] => Rule::light("");
         /// Whether the camera sees it. If not, camera rays pass as if it were not there; it still shines, and is seen
         /// in mirrors and through glass.
         camera_visible: bool = true;
@@ -104,15 +113,10 @@ impl Words for SphereLight {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         let words = SphereLightWords::read(reader, item, at)?;
-        let emission = match (words.intensity, words.radiance, words.power) {
-            (Some(color), _, _) => Spanned { value: Emission::Intensity(color.value), span: color.span },
-            (_, Some(color), _) => Spanned { value: Emission::Radiance(color.value), span: color.span },
-            (_, _, Some(color)) => Spanned { value: Emission::Power(color.value), span: color.span },
-            // None was written, or what was written could not be read: reported.
-            _ => return None,
-        };
-        let SphereLightWords { center, radius, camera_visible, name, group, .. } = words;
-        Some(SphereLight { center, radius, emission, camera_visible, name, group })
+        // None was written, or what was written could not be read: reported.
+        let amount = amount_of!(words)?;
+        let SphereLightWords { center, radius, color, camera_visible, name, group, .. } = words;
+        Some(SphereLight { center, radius, amount, color, camera_visible, name, group })
     }
 
     fn form(&self, _all: bool) -> Form {
@@ -122,16 +126,16 @@ impl Words for SphereLight {
             intensity: None,
             radiance: None,
             power: None,
+            luminous_intensity: None,
+            luminance: None,
+            luminous_power: None,
+            color: self.color,
             camera_visible: self.camera_visible,
             name: self.name.clone(),
             group: self.group.clone(),
         };
-        match self.emission.value {
-            Emission::Intensity(color) => words.intensity = Some(color.into()),
-            Emission::Radiance(color) => words.radiance = Some(color.into()),
-            Emission::Power(color) => words.power = Some(color.into()),
-        }
-        // The two that are not written have no default to show: only one may be there.
+        put_amount!(self.amount.value, words);
+        // Those that are not written have no default to show: only one may be there.
         words.form(false)
     }
 }

@@ -10,6 +10,7 @@
 //! The enums are exhaustive on purpose: whoever walks a scene wants the compiler to name the kinds that he has not
 //! thought of. So a new kind, field or word comes with a new minor version (0.2 after 0.1), never with a patch.
 
+mod amount;
 mod animation;
 mod background;
 mod camera;
@@ -34,6 +35,7 @@ mod textures;
 mod transform;
 mod view;
 
+pub use amount::{Amount, Radiometric};
 pub use animation::Animation;
 pub(crate) use animation::Film;
 pub(crate) use background::BackgroundWords;
@@ -47,10 +49,10 @@ pub(crate) use group::{ITEMS, MOST_NESTED, Objects};
 pub(crate) use include::IncludeWords;
 pub(crate) use lens::DepthOfField;
 pub use lens::{Focus, ThinLens};
-pub use light::{Emission, Light, SphereLight};
+pub use light::{Light, SphereLight};
 pub use light_group::LightGroup;
 pub use materials::{
-    Amount, BlinnPhong, Conductor, Diffuse, Emissive, Material, MaterialRef, Metal, Mirror, NamedMaterial, Reflectance,
+    BlinnPhong, Conductor, Diffuse, Emissive, Material, MaterialRef, Metal, Mirror, NamedMaterial, Reflectance,
     Transparent,
 };
 pub use moments::Moments;

@@ -193,6 +193,13 @@ shapes! {
 }
 
 impl Object {
+    /// Whether it has the materials that its own file names (`mtllib` of OBJ).
+    pub fn has_materials_of_file(&self) -> bool {
+        let Object::Mesh(mesh) = self else { return false };
+        let extension = mesh.file().and_then(|file| file.value.extension());
+        mesh.material == MaterialRef::Default && extension.is_some_and(|of| of.eq_ignore_ascii_case("obj"))
+    }
+
     /// The shapes that it is made of, where it is made of several.
     pub fn operands(&self) -> Option<&Operands> {
         match self {

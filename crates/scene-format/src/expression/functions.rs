@@ -1,6 +1,7 @@
 //! The functions of expressions. Angles are in degrees.
 
 use super::Value;
+use super::blackbody::blackbody;
 
 /// Names that stand for a number.
 pub(super) const CONSTANTS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
@@ -84,6 +85,11 @@ functions! {
     };
     "hsv" "hsv(hue, saturation, value)" "a colour by hue in degrees, saturation and value, 0 to 1" |a| match a {
         [Value::Number(h), Value::Number(s), Value::Number(v)] => Some(Value::Triple(hsv(*h, *s, *v))),
+        _ => None,
+    };
+    "blackbody" "blackbody(kelvin), from 500 to 40000" "the colour of what glows at that temperature, of luminance 1"
+        |a| match a {
+        [Value::Number(kelvin)] => blackbody(*kelvin).map(Value::Triple),
         _ => None,
     };
     "random" "random(n, ..)" "a number from 0 to 1, the same for the same one to four numbers" |a| match a {

@@ -3,6 +3,7 @@
 //! Total: no loops, no functions of one's own, at most [`MAX_BYTES`] long and [`MAX_DEPTH`] deep, so every one ends
 //! soon. The same on every machine: own `libm`, angles in degrees.
 
+mod blackbody;
 mod functions;
 mod parse;
 mod value;

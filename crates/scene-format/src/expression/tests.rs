@@ -58,6 +58,8 @@ fn vectors_go_component_by_component() {
     assert_eq!(value("-(1, 2)"), Value::Pair([-1.0, -2.0]));
     assert_eq!(value("#ffffff * 0.5"), Value::Triple([0.5; 3]));
     assert_eq!(value("hsv(120, 1, 1)"), Value::Triple([0.0, 1.0, 0.0]));
+    let Value::Triple([r, g, b]) = value("blackbody(2700)") else { panic!("a colour") };
+    assert!(r > g && g > b && (0.2126 * r + 0.7152 * g + 0.0722 * b - 1.0).abs() < 1e-12, "{r} {g} {b}");
     assert_eq!(value("p == (1, 2, 3)"), Value::Bool(true));
 }
 

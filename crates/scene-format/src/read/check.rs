@@ -94,7 +94,10 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
             MaterialRef::Named { .. } | MaterialRef::Default => false,
         };
         let is_wrong = reader.sink.diagnostics.iter().any(|fault| fault.path.starts_with("background"));
-        if dark && black && !is_wrong && !reader.materials.any_shines() && !scene.objects.0.iter().any(shines) {
+        // What the materials of a mesh's own file are, whoever reads that file says.
+        let objects = &scene.objects.0;
+        let dark = dark && !objects.iter().any(|object| shines(object) || object.value.has_materials_of_file());
+        if dark && black && !is_wrong && !reader.materials.any_shines() {
             let lights = lights.map(|lights| lights.span());
             reader.path.push(Step::Field("lights"));
             reader.report(

@@ -99,6 +99,12 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
         "vec3", "vec2", "vec", "vector", "vector3", "vector2", "float3", "float2", "double3", "point", "point3",
         "normal", "rgb", "srgb", "color", "colour", "color3", "tuple",
     ];
+    if at.rule.color
+        && count == 3
+        && let Some(kelvin) = kelvin(item)
+    {
+        return Some(format!("\"=blackbody({kelvin})\""));
+    }
     match item.kind() {
         Kind::Tuple => {
             let name = item.name()?.to_ascii_lowercase();
@@ -126,6 +132,19 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
             axis(&item.text()).map(|axis| vector(item, &axis))
         }
         Kind::Word if at.rule.color => named_color(item.lexeme()).map(|hex| format!("\"{hex}\"")),
+        _ => None,
+    }
+}
+
+/// The temperature of `blackbody(2700)` or `Blackbody(temperature: 2700)`.
+fn kelvin<'s>(item: Item<'_, 's>) -> Option<&'s str> {
+    let name = item.name()?;
+    if !["blackbody", "black_body", "kelvin"].iter().any(|known| name.eq_ignore_ascii_case(known)) {
+        return None;
+    }
+    match item.kind() {
+        Kind::Tuple => numbers(item).filter(|numbers| numbers.len() == 1).map(|numbers| numbers[0]),
+        Kind::Struct => fields_named(item, ["temperature"]).map(|[kelvin]| kelvin),
         _ => None,
     }
 }

@@ -325,20 +325,20 @@ pub(super) fn strength(name: &str, def: &'static StructDef) -> Option<&'static s
         return None;
     }
     match name.to_ascii_lowercase().as_str() {
-        "color" | "colour" | "rgb" => {
-            Some("a light's colour is in its brightness, per channel: `radiance: (1, 0.9, 0.8)`")
+        "colour" | "rgb" | "tint" => {
+            Some("a light's colour is `color`, or in its amount, per channel: `radiance: (3, 2, 1)`")
         }
-        "brightness" | "strength" | "energy" | "emission" | "scale" | "luminance" | "exposure" | "ke" | "l" | "le"
-        | "emissive" | "candela" | "nits" | "irradiance" | "intensity"
-            if def.field("intensity").is_none() =>
-        {
-            Some("how bright it is is said by `radiance`, or by `power` in W")
+        "temperature" | "kelvin" | "blackbody" | "color_temperature" | "t" => {
+            Some("a light as white as a black body of 2700 K has `color: \"=blackbody(2700)\"`")
         }
-        "brightness" | "strength" | "energy" | "emission" | "scale" | "luminance" | "exposure" | "l" | "le"
-        | "nits" | "emissive" | "candela" | "irradiance" => {
-            Some("how bright a light is is said by `radiance`, by `power` in W, or for spheres by `intensity` in W/sr")
+        "brightness" | "strength" | "energy" | "emission" | "scale" | "exposure" | "ke" | "l" | "le" | "emissive"
+        | "irradiance" | "illuminance" => {
+            Some("how bright it is is said by `radiance`, `power` in W, `intensity` in W/sr, or `luminous_power` in lm")
         }
-        "watts" | "watt" | "flux" | "lumens" | "lumen" => Some("the light that is given in all is `power`, in W"),
+        "candela" | "candelas" | "cd" => Some("candela are said by `luminous_intensity`"),
+        "nits" | "nit" => Some("nits, cd/m^2, are said by `luminance`"),
+        "watts" | "watt" | "flux" => Some("the light that is given in all is `power`, in W"),
+        "lumens" | "lumen" | "lm" => Some("lumens are said by `luminous_power`"),
         _ => None,
     }
 }

@@ -3,7 +3,7 @@
 
 use super::Reader;
 use crate::codes;
-use crate::desc::{Curve, Lathe, Material, MaterialRef, Object, Scene};
+use crate::desc::{Curve, Lathe, Material, MaterialRef, NamedMaterial, Object, Scene};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::path::shown;
 use std::collections::HashSet;
@@ -37,6 +37,10 @@ impl Reader<'_> {
     /// come too near to the axis that they turn about.
     pub(super) fn shapes(&mut self, scene: &Scene) {
         let (mut sides, mut told) = (0, HashSet::new());
+        let is_intense =
+            |material: &Material| material.shines().is_some_and(|shines| shines.amount.value.is_intensity());
+        let intense: HashSet<&str> =
+            scene.materials.iter().filter(|of| is_intense(&of.material)).map(|of| &*of.name.value).collect();
         for object in &scene.objects.0 {
             sides += sides_of(&object.value);
             let mut faults = Vec::new();
@@ -48,6 +52,7 @@ impl Reader<'_> {
             } else {
                 sides -= sides_of(&object.value);
             }
+            faults.extend(no_intensity(&object.value, &intense));
             // What is repeated is wrong many times, and told once.
             for fault in faults {
                 if told.insert((fault.span, fault.code)) {
@@ -70,7 +75,7 @@ fn sides_of(object: &Object) -> usize {
     if curve == Curve::CatmullRom { SIDES_OF_A_SPAN * count } else { count }
 }
 
-fn of_lathe(lathe: &Lathe, span: Span, materials: &[crate::desc::NamedMaterial]) -> Vec<Diagnostic> {
+fn of_lathe(lathe: &Lathe, span: Span, materials: &[NamedMaterial]) -> Vec<Diagnostic> {
     let at = if lathe.profile.span == Span::NONE { span } else { lathe.profile.span };
     let turning = lathe.profile.value.turned();
     if let Some(fault) = turning.fault(at) {
@@ -105,7 +110,24 @@ fn of_lathe(lathe: &Lathe, span: Span, materials: &[crate::desc::NamedMaterial])
     faults
 }
 
-fn is_glass(material: &MaterialRef, materials: &[crate::desc::NamedMaterial]) -> bool {
+/// Of what is neither flat nor a ball nobody can say how bright it is from afar. `intense`: materials that say it.
+fn no_intensity(object: &Object, intense: &HashSet<&str>) -> Option<Diagnostic> {
+    let span = match object.material() {
+        MaterialRef::Named { name, span } => intense.contains(&**name).then_some(*span)?,
+        MaterialRef::Inline(material) => {
+            let amount = &material.value.shines()?.amount;
+            amount.value.is_intensity().then_some(amount.span)?
+        }
+        MaterialRef::Default => return None,
+    };
+    let has = matches!(object, Object::Sphere(_) | Object::Rectangle(_) | Object::Disk(_) | Object::Polygon(_));
+    (!has).then(|| {
+        Diagnostic::error(codes::NO_USE, span, "only a sphere, a rectangle, a disk and a polygon shine by an intensity")
+            .expected("`radiance`, `power`, `luminance` or `luminous_power`")
+    })
+}
+
+fn is_glass(material: &MaterialRef, materials: &[NamedMaterial]) -> bool {
     let material = match material {
         MaterialRef::Inline(material) => Some(&material.value),
         MaterialRef::Named { name, .. } => {

@@ -92,12 +92,14 @@ fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, [ron, toml], turne
     let syntax = item.syntax();
     let values: Vec<Item<'_, '_>> = found.iter().map(|(_, value)| *value).collect();
     let written = |field: &&str| item.fields().take(MOST).any(|(key, _)| key.text() == **field);
-    let is_there = ours.iter().any(written);
-    let mended = turned(&values, syntax).filter(|_| !is_there);
+    let there = ours.iter().find(|field| written(field));
+    let mended = turned(&values, syntax).filter(|_| there.is_none());
     let way = if syntax == Syntax::Ron { (*ron).into() } else { syntax.of_toml(*toml) };
     let hint = match &mended {
         Some(mended) => format!("write `{mended}`"),
-        None if is_there => format!("`{way}` says that here, and is written already"),
+        None if let Some(there) = there => {
+            format!("`{there}` is written already: leave these out, or write all of it as `{way}`")
+        }
         None if *kind == "Torus" => "a torus has the `radius` of its ring, to the middle of the tube, and a \
                                      `tube_radius`"
             .to_owned(),

@@ -37,6 +37,17 @@ pub(super) fn text(random: &mut Random) -> String {
     format!("n{letters}")
 }
 
+fn amount(random: &mut Random, color: Color) -> Amount {
+    match random.below(6) {
+        0 => Amount::Radiance(color),
+        1 => Amount::Intensity(color),
+        2 => Amount::Power(color),
+        3 => Amount::Luminance(color[0]),
+        4 => Amount::LuminousIntensity(color[1]),
+        _ => Amount::LuminousPower(color[2]),
+    }
+}
+
 fn material(random: &mut Random) -> Material {
     match random.below(6) {
         5 => Material::Conductor(Box::new(Conductor {
@@ -51,9 +62,15 @@ fn material(random: &mut Random) -> Material {
         0 => Material::Diffuse(Diffuse { albedo: albedo(random) }),
         4 => {
             let color = share(random).map(|channel| channel * 1e3);
-            let amount = if random.below(2) == 0 { Amount::Radiance(color) } else { Amount::Power(color) };
+            // Only some shapes have an intensity.
+            let amount = match amount(random, color) {
+                Amount::Intensity(color) => Amount::Radiance(color),
+                Amount::LuminousIntensity(number) => Amount::Luminance(number),
+                other => other,
+            };
+            let color = if random.below(2) == 0 { [1.0; 3] } else { share(random) };
             let (two_sided, group) = (random.below(2) == 0, light_group(random));
-            Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided, group }))
+            Material::Emissive(Box::new(Emissive { amount: amount.into(), color, two_sided, group }))
         }
         1 => Material::Mirror(Mirror { reflectance: albedo(random) }),
         2 => Material::Transparent(Box::new(Transparent {
@@ -481,15 +498,12 @@ pub fn scene(random: &mut Random) -> SceneDesc {
     grouped(random, &mut objects);
     let light = |random: &mut Random| {
         let color = share(random).map(|channel| channel * 100.0);
-        let emission = match random.below(3) {
-            0 => Emission::Intensity(color),
-            1 => Emission::Radiance(color),
-            _ => Emission::Power(color),
-        };
+        let amount = amount(random, color);
         Light::SphereLight(SphereLight {
             center: vector(random).into(),
             radius: length(random).into(),
-            emission: emission.into(),
+            amount: amount.into(),
+            color: if random.below(2) == 0 { [1.0; 3] } else { share(random) },
             camera_visible: random.below(4) != 0,
             name: name(random),
             group: light_group(random),

@@ -7,7 +7,7 @@ use super::placing::{Subject, place_all, sides};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
 use scene_format::desc::{
-    Amount, Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Plane, Vec3, cannot_shine,
+    Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Plane, Radiometric, Vec3, cannot_shine,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
@@ -206,22 +206,24 @@ impl Curved {
     }
 
     /// What its copies shine, in the scene's own unit; none where it does not. L = P / (pi A), A the true area of a
-    /// copy, of both sides where it has two.
+    /// copy, of both sides where it has two. L = I / A of disks, 4 I / A of spheres.
     pub fn radiances(&self) -> Vec<[f64; 3]> {
         let Some(emissive) = &self.emissive else { return Vec::new() };
         let pi = std::f64::consts::PI;
         let sides = if emissive.two_sided { 2.0 } else { 1.0 };
-        let of_amount = match emissive.amount.value {
-            Amount::Radiance(l) => l,
-            Amount::Power(_) => [0.0; 3],
+        let amount = emissive.radiometric();
+        let area = |map: &DAffine3| match self.ball(map) {
+            Some((_, radius)) => 4.0 * pi * radius * radius,
+            None => self.unit.area(map),
         };
-        let radiance = |map: &DAffine3| {
-            let Amount::Power(power) = emissive.amount.value else { return of_amount };
-            let area = match self.ball(map) {
-                Some((_, radius)) => 4.0 * pi * radius * radius,
-                None => self.unit.area(map),
-            };
-            power.map(|x| x / (pi * area * sides))
+        let radiance = |map: &DAffine3| match amount {
+            Radiometric::Radiance(radiance) => radiance,
+            Radiometric::Intensity(intensity) => {
+                // What a convex body shows is a fourth of its surface, on average (Cauchy); of a flat one its face.
+                let shown = if self.unit == UnitShape::Sphere { 0.25 } else { 1.0 } * area(map);
+                intensity.map(|x| x / shown)
+            }
+            Radiometric::Power(power) => power.map(|x| x / (pi * area(map) * sides)),
         };
         self.maps.iter().map(radiance).collect()
     }

@@ -13,7 +13,7 @@ use super::placing::{Subject, check, place_all};
 use super::polygonal::{Geometry, Polygonal, polygonal};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
-use scene_format::desc::{Amount, Emissive, Instances, MaterialRef, Placements, Shading};
+use scene_format::desc::{Emissive, Instances, MaterialRef, Placements, Radiometric, Shading};
 use scene_format::{Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -27,11 +27,13 @@ use tracer_mesh::{MeshData, NO_INDEX, normals::vertex_normals};
 pub struct Assigned {
     /// Per object: one for all of it, or [`NONE`] for what its file says per triangle.
     of_object: Vec<u32>,
-    /// Per object: how it shines, where it does.
+    /// Per object: how all of it shines, where it does.
     emissive: Vec<Option<Emissive>>,
     /// Per file: materials of its triangles' material indices, with the default last; empty where no object asks for
     /// them.
     of_file: Vec<Vec<u32>>,
+    /// Per file the radiance of each of these that shines; empty where none does.
+    shining: Vec<Vec<Option<[f64; 3]>>>,
 }
 
 /// Resolves the materials of the objects: what the scene names, else what the file's MTL says, else the default.
@@ -41,8 +43,13 @@ pub fn assign_materials(
     builder: &mut MaterialBuilder,
     diagnostics: &mut Diagnostics,
 ) -> Assigned {
-    let of_file = vec![Vec::new(); loaded.files.len()];
-    let mut assigned = Assigned { of_object: Vec::new(), emissive: Vec::new(), of_file };
+    let count = loaded.files.len();
+    let mut assigned = Assigned {
+        of_object: Vec::new(),
+        emissive: Vec::new(),
+        of_file: vec![Vec::new(); count],
+        shining: vec![Vec::new(); count],
+    };
     for (object, file) in polygonal(desc).zip(&loaded.file_of_object) {
         let own = file.filter(|&f| !loaded.files[f].triangle_material.is_empty());
         let whole = match (object.material, own) {
@@ -54,6 +61,15 @@ pub fn assign_materials(
                         .map(|m| builder.add(&m.material, None, || m.name.value.to_string()))
                         .collect();
                     assigned.of_file[f].push(builder.default_material());
+                    let radiance = |&material: &u32| match builder.emissive(material)?.radiometric() {
+                        Radiometric::Radiance(radiance) => Some(radiance),
+                        // What files say is radiance.
+                        Radiometric::Intensity(_) | Radiometric::Power(_) => None,
+                    };
+                    let shining: Vec<_> = assigned.of_file[f].iter().map(radiance).collect();
+                    if shining.iter().any(Option::is_some) {
+                        assigned.shining[f] = shining;
+                    }
                 }
                 NONE
             }
@@ -63,6 +79,19 @@ pub fn assign_materials(
         assigned.emissive.push(builder.emissive(whole).cloned());
     }
     assigned
+}
+
+impl Assigned {
+    /// Whether anything shines by the materials of its own file.
+    pub fn shines_by_file(&self) -> bool {
+        self.shining.iter().any(|materials| !materials.is_empty())
+    }
+
+    /// What the file's own materials shine that an object has.
+    fn own_radiance(&self, object: usize, file: usize) -> impl Iterator<Item = [f64; 3]> {
+        let own = if self.of_object[object] == NONE { &self.shining[file][..] } else { &[] };
+        own.iter().flatten().copied()
+    }
 }
 
 /// Where the objects of triangles are.
@@ -145,17 +174,26 @@ impl Placed {
     }
 }
 
-/// What the copies of an object shine, per copy; empty where it does not. L = P / (pi A).
+/// What the copies of an object shine, per copy; empty where it does not. L = P / (pi A), or I / A.
 pub fn radiances(loaded: &Loaded, placed: &Placed, assigned: &Assigned) -> Vec<Vec<[f64; 3]>> {
     let of_object = |(object, emissive): (usize, &Option<Emissive>)| {
-        let (Some(emissive), Some(file)) = (emissive, loaded.file_of_object[object]) else { return Vec::new() };
+        let Some(file) = loaded.file_of_object[object] else { return Vec::new() };
+        let Some(emissive) = emissive else {
+            let brightest = assigned
+                .own_radiance(object, file)
+                .fold([0.0; 3], |a: [f64; 3], b| if b.iter().sum::<f64>() > a.iter().sum() { b } else { a });
+            let copies = if brightest == [0.0; 3] { 0 } else { placed.maps[object].len() };
+            return vec![brightest; copies];
+        };
         let data = &loaded.files[file];
-        let radiance = |map: &DAffine3| match emissive.amount.value {
-            Amount::Radiance(radiance) => radiance,
-            Amount::Power(power) => {
+        let of_area = |amount: [f64; 3], area: f64| amount.map(|x| if area > 0.0 { x / area } else { 0.0 });
+        let radiance = |map: &DAffine3| match emissive.radiometric() {
+            Radiometric::Radiance(radiance) => radiance,
+            // Along the normal: only flat shapes have one.
+            Radiometric::Intensity(intensity) => of_area(intensity, area(data, map)),
+            Radiometric::Power(power) => {
                 let sides = if emissive.two_sided { 2.0 } else { 1.0 };
-                let area = std::f64::consts::PI * sides * area(data, map);
-                power.map(|p| if area > 0.0 { p / area } else { 0.0 })
+                of_area(power, std::f64::consts::PI * sides * area(data, map))
             }
         };
         placed.maps[object].iter().map(radiance).collect()
@@ -230,6 +268,7 @@ pub struct Parts<'a> {
 
 /// Brings the meshes into render space. `written`, where a pattern asks for it: from the coordinates that things are
 /// written in to the world, the first the world's own.
+// Long: copies with triangles of their own, which may shine, and shared ones are put in one order.
 pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAffine3>>) -> Built {
     let Parts { desc, loaded, placed, assigned, .. } = *parts;
     let variant = |object: &Polygonal<'_>, file: usize| Variant {
@@ -270,17 +309,30 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
             built.add_coordinates(polygonal, &placed.maps[object], written);
         }
         let emissive = assigned.emissive[object].as_ref();
-        if emissive.is_some() || flattened(polygonal.instances, copies[&variant], data.triangles.len()) {
+        let own = &assigned.shining[variant.file];
+        let shines_in_part = assigned.own_radiance(object, variant.file).next().is_some();
+        if emissive.is_some()
+            || shines_in_part
+            || flattened(polygonal.instances, copies[&variant], data.triangles.len())
+        {
             for (copy, world) in worlds.enumerate() {
                 built.vertices_of.push((variant.file, built.triangles.positions.len() as u32));
                 let mesh = built.add_mesh(data, variant.smooth, &world, frame.scale, whole, own_materials);
                 built.instances.push(Instance { mesh, material: whole, object: polygonal.number, placement: None });
+                let in_unit = |radiance: [f64; 3]| radiance.map(|x| x / parts.radiance_unit);
                 if let Some(emissive) = emissive {
-                    let radiance = parts.radiances[object][copy].map(|x| x / parts.radiance_unit);
+                    let radiance = in_unit(parts.radiances[object][copy]);
                     let quads = matches!(polygonal.geometry, Geometry::Unit(_));
                     let mirrored = world.matrix3.determinant() < 0.0;
-                    let shine = Shine { radiance, two_sided: emissive.two_sided, quads, mirrored };
-                    built.add_lights(mesh, &shine, parts.first_light);
+                    let shine = Shine { two_sided: emissive.two_sided, quads, mirrored };
+                    built.add_lights(mesh, &shine, parts.first_light, |_| Some(radiance));
+                } else if shines_in_part {
+                    let shine = Shine { two_sided: true, quads: false, mirrored: false };
+                    let radiance = |triangle: usize| {
+                        let material = *data.triangle_material.get(triangle)?;
+                        own.get(material as usize).copied().flatten().map(in_unit)
+                    };
+                    built.add_lights(mesh, &shine, parts.first_light, radiance);
                 }
             }
             continue;
@@ -465,12 +517,16 @@ impl Built {
     }
 
     /// Makes lights of a mesh's triangles, or of their pairs where those are parallelograms; `first`: the index of the
-    /// first of [`Built::lights`] among all lights.
-    fn add_lights(&mut self, mesh: u32, shine: &Shine, first: u32) {
+    /// first of [`Built::lights`] among all lights. `radiance`: of a triangle of the mesh, in the engine's unit.
+    fn add_lights(&mut self, mesh: u32, shine: &Shine, first: u32, radiance: impl Fn(usize) -> Option<[f64; 3]>) {
         let Mesh { first_triangle, triangle_count } = self.meshes[mesh as usize];
         let t = &mut self.triangles;
         t.light.resize(first_triangle as usize, NONE);
         for triangle in first_triangle..first_triangle + triangle_count {
+            let Some(radiance) = radiance((triangle - first_triangle) as usize) else {
+                t.light.push(NONE);
+                continue;
+            };
             let second = shine.quads && (triangle - first_triangle) % 2 == 1;
             if !second && let Some([a, b, c]) = t.corners(triangle) {
                 // Of a pair the first triangle is (p, q, r), the second (p, r, s) with s = p + r - q, where none is
@@ -480,7 +536,7 @@ impl Built {
                     (true, false) => [b, c, a],
                     (true, true) => [c, a, b],
                 };
-                let Shine { radiance, two_sided, .. } = *shine;
+                let two_sided = shine.two_sided;
                 let flat = FlatLight { corner, edges: [first - corner, second - corner], radiance, two_sided };
                 self.lights.push(if shine.quads { Light::Parallelogram(flat) } else { Light::Triangle(flat) });
             }
@@ -491,8 +547,6 @@ impl Built {
 
 /// How a mesh shines.
 struct Shine {
-    /// In the engine's unit.
-    radiance: [f64; 3],
     two_sided: bool,
     /// Its triangles are pairs that make parallelograms.
     quads: bool,

@@ -187,9 +187,10 @@ fn with_ways(mut diagnostics: Diagnostics, sources: &[Source]) -> Diagnostics {
 
 /// Warns of what is surely not meant, as far as it is seen without a frame; of shapes in one place one is left.
 fn warn(desc: &SceneDesc, gathered: &mut Gathered<'_>) {
-    let Gathered { loaded, curved, finished, background, placed, diagnostics, .. } = gathered;
+    let Gathered { loaded, assigned, curved, finished, background, placed, diagnostics, .. } = gathered;
     in_one_place::leave_out(desc, curved, &finished.materials, diagnostics);
     unmeant::warn(desc, loaded, placed, curved, diagnostics);
+    unmeant::no_light(desc, assigned, diagnostics);
     hidden_flat::warn(desc, placed, diagnostics);
     curved::warn_of_open_glass(desc, diagnostics);
     other_scale::warn(desc, background.brightest(), diagnostics);

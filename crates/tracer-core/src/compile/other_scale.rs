@@ -1,8 +1,8 @@
 //! Numbers that are surely meant on another scale: radians where degrees stand, light as a colour in bytes, an
 //! exposure in other units.
 
-use scene_format::desc::{Amount, Color, Emission, Light, Material, MaterialRef, Projection, Transform};
-use scene_format::diagnostic::Span;
+use scene_format::desc::{Amount, Color, Light, Material, MaterialRef, Projection, Transform};
+use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::f64::consts::PI;
 
@@ -69,24 +69,26 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
 fn light_in_bytes(desc: &SceneDesc) -> Option<(Span, Color)> {
     let of_light = |light: &Light| {
         let Light::SphereLight(light) = light;
-        let (Emission::Intensity(color) | Emission::Radiance(color) | Emission::Power(color)) = light.emission.value;
-        (light.emission.span, color)
+        of_amount(&light.amount)
     };
-    let of_material = |material: &Material| {
-        let amount = &material.shines()?.amount;
-        let (Amount::Radiance(color) | Amount::Power(color)) = amount.value;
-        Some((amount.span, color))
-    };
+    let of_material = |material: &Material| of_amount(&material.shines()?.amount);
     let inline = desc.objects.iter().filter_map(|object| match object.value.material() {
         MaterialRef::Inline(material) => of_material(&material.value),
         _ => None,
     });
     let named = desc.materials.iter().filter_map(|named| of_material(&named.material));
-    desc.lights.iter().map(|light| of_light(&light.value)).chain(named).chain(inline).find(|(_, color)| {
+    desc.lights.iter().filter_map(|light| of_light(&light.value)).chain(named).chain(inline).find(|(_, color)| {
         let whole = color.iter().all(|channel| channel.fract() == 0.0 && *channel >= 0.0);
         let most = color.iter().fold(0.0, |most: f64, channel| most.max(*channel));
         whole && most == 255.0 && color.iter().any(|channel| *channel != most)
     })
+}
+
+fn of_amount(amount: &Spanned<Amount>) -> Option<(Span, Color)> {
+    match amount.value {
+        Amount::Intensity(color) | Amount::Radiance(color) | Amount::Power(color) => Some((amount.span, color)),
+        Amount::Luminance(_) | Amount::LuminousIntensity(_) | Amount::LuminousPower(_) => None,
+    }
 }
 
 /// Whether an angle is one of those that people turn things by, in radians.

@@ -5,16 +5,16 @@ use super::polygonal::polygonal;
 use scene_format::Diagnostic;
 use scene_format::SceneDesc;
 use scene_format::codes;
-use scene_format::desc::{self, Emission, Integrator, SphereLight};
+use scene_format::desc::{self, Integrator, Radiometric, SphereLight};
 use scene_format::diagnostic::Span;
 
 /// L = I / (pi r^2) = P / (4 pi^2 r^2).
 pub(super) fn of_light(light: &SphereLight) -> [f64; 3] {
     let disc = std::f64::consts::PI * light.radius.value * light.radius.value;
-    match light.emission.value {
-        Emission::Radiance(l) => l,
-        Emission::Intensity(i) => i.map(|x| x / disc),
-        Emission::Power(p) => p.map(|x| x / (4.0 * std::f64::consts::PI * disc)),
+    match light.radiometric() {
+        Radiometric::Radiance(l) => l,
+        Radiometric::Intensity(i) => i.map(|x| x / disc),
+        Radiometric::Power(p) => p.map(|x| x / (4.0 * std::f64::consts::PI * disc)),
     }
 }
 
@@ -86,7 +86,7 @@ pub(super) fn too_dark(desc: &SceneDesc, shining: &[Shining], background: [f64; 
     };
     let lamps = desc.lights.iter().filter_map(|light| {
         let desc::Light::SphereLight(lamp) = &light.value;
-        is_lost(of_light(lamp)).then(|| warning(lamp.emission.span, "this light"))
+        is_lost(of_light(lamp)).then(|| warning(lamp.amount.span, "this light"))
     });
     let objects = shining.iter().filter(|object| object.radiances.iter().any(|&radiance| is_lost(radiance)));
     let objects = objects.map(|object| warning(object.span, "what this object shines"));

@@ -2,11 +2,11 @@
 //! out, a camera or a lamp shut in an opaque object.
 
 use super::curved::Curved;
-use super::meshes::{Loaded, Placed};
+use super::meshes::{Assigned, Loaded, Placed};
 use super::polygonal::{Geometry, UnitShape, polygonal};
 use glam::{DAffine3, DVec3};
-use scene_format::desc::{Albedo, Light, Material, MaterialRef};
-use scene_format::diagnostic::Span;
+use scene_format::desc::{Albedo, Light, Material, MaterialRef, Object};
+use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeMap;
 use tracer_kernels::scene::{Camera, Frame, Projection};
@@ -197,6 +197,24 @@ fn material_of<'d>(materials: &BTreeMap<&str, &'d Material>, reference: &'d Mate
         MaterialRef::Default => None,
         MaterialRef::Named { name, .. } => materials.get(&**name).copied(),
         MaterialRef::Inline(material) => Some(&material.value),
+    }
+}
+
+/// Warns where there is no light, as far as only the files of meshes could tell: the reader has told of all others.
+pub fn no_light(desc: &SceneDesc, assigned: &Assigned, diagnostics: &mut Diagnostics) {
+    let of_files = desc.objects.iter().any(|object| object.value.has_materials_of_file());
+    let dark = desc.lights.is_empty() && desc.background.is_black() && !assigned.shines_by_file();
+    let inline = |object: &Spanned<Object>| match object.value.material() {
+        MaterialRef::Inline(material) => material.value.shines().is_some(),
+        MaterialRef::Named { .. } | MaterialRef::Default => false,
+    };
+    let shines = desc.materials.iter().any(|named| named.material.shines().is_some());
+    if of_files && dark && !shines && !desc.objects.iter().any(inline) {
+        let message = "the scene has no light, so the picture will be black";
+        diagnostics.push(
+            Diagnostic::warning(codes::BLACK_PICTURE, Span::NONE, message)
+                .expected("a light, a `background`, or an object that shines"),
+        );
     }
 }
 

@@ -6,7 +6,7 @@ use crate::support::meshes::{icosphere, square};
 use crate::support::{compiled, effort, film};
 use glam::{DMat3, DVec3};
 use scene_format::SceneDesc;
-use scene_format::desc::{Emission, Instances, LightGroup, Name, Object, Placements, Shading, SphereLight, Transform};
+use scene_format::desc::{Amount, Instances, LightGroup, Name, Object, Placements, Shading, SphereLight, Transform};
 use std::f64::consts::PI;
 use std::path::Path;
 use tracer_core::Scene;
@@ -49,15 +49,18 @@ fn lamps_have_the_intensity_and_power_that_they_name() {
     let (distance, albedo) = (7.0, 0.6);
     for radius in [0.01, 0.8] {
         let words = [
-            (Emission::Intensity([30.0, 20.0, 10.0]), [30.0, 20.0, 10.0]),
-            (Emission::Power([500.0, 700.0, 900.0]), [500.0, 700.0, 900.0].map(|p| p / (4.0 * PI))),
-            (Emission::Radiance([2.0, 3.0, 4.0]), [2.0, 3.0, 4.0].map(|l| l * PI * radius * radius)),
+            (Amount::Intensity([30.0, 20.0, 10.0]), [30.0, 20.0, 10.0]),
+            (Amount::Power([500.0, 700.0, 900.0]), [500.0, 700.0, 900.0].map(|p| p / (4.0 * PI))),
+            (Amount::Radiance([2.0, 3.0, 4.0]), [2.0, 3.0, 4.0].map(|l| l * PI * radius * radius)),
+            (Amount::LuminousIntensity(683.0 * 40.0), [40.0; 3]),
+            (Amount::LuminousPower(683.0 * 800.0), [800.0 / (4.0 * PI); 3]),
         ];
-        for (emission, intensity) in words {
+        for (amount, intensity) in words {
             let lamp = SphereLight {
                 center: [0.0, distance, 0.0].into(),
                 radius: radius.into(),
-                emission: emission.clone().into(),
+                amount: amount.clone().into(),
+                color: [1.0; 3],
                 camera_visible: true,
                 name: Name::default(),
                 group: LightGroup::default(),
@@ -77,7 +80,7 @@ fn lamps_have_the_intensity_and_power_that_they_name() {
                 assert!(estimate.error() < 2e-3 * expected, "too noisy to tell");
                 assert!(
                     (estimate.mean - expected).abs() < 4.8 * estimate.error() + 1.2e-6 * expected,
-                    "radius {radius} {emission:?} channel {channel}: {} +- {} is not {expected}",
+                    "radius {radius} {amount:?} channel {channel}: {} +- {} is not {expected}",
                     estimate.mean,
                     estimate.error()
                 );

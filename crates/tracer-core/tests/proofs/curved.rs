@@ -155,7 +155,12 @@ fn placed_spheres_are_spheres() {
     assert!(moved.shapes.is_empty());
 
     let power = Amount::Power([50.0; 3]).into();
-    let lamp = Material::Emissive(Box::new(Emissive { amount: power, two_sided: false, group: LightGroup::default() }));
+    let lamp = Material::Emissive(Box::new(Emissive {
+        amount: power,
+        color: [1.0; 3],
+        two_sided: false,
+        group: LightGroup::default(),
+    }));
     let mut copied = turned(sphere([0.0; 3], 1.0, lamp.clone()), vec![rotate([1.0, 2.0, 0.5], 70.0)]);
     let copy = |x: f64, size: f64| {
         vec![Transform::Scale { factor: [size; 3], about: None }.into(), Transform::Translate([x, 2.5, 0.0]).into()]
@@ -183,6 +188,7 @@ fn faults_of_curved_shapes() {
     let lamp = || {
         Material::Emissive(Box::new(Emissive {
             amount: Amount::Radiance([1.0; 3]).into(),
+            color: [1.0; 3],
             two_sided: false,
             group: LightGroup::default(),
         }))

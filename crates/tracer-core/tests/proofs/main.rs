@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods)]
 
 mod aimed;
+mod amounts;
 mod analytic;
 mod backdrop;
 mod cameras;

@@ -5,15 +5,14 @@ use crate::same_bytes::{bits, everything, many_balls, options};
 use crate::support::describe::*;
 use crate::support::{compiled, film};
 use scene_format::SceneDesc;
-use scene_format::desc::{Emission, Light};
+use scene_format::desc::Light;
 use tracer_core::{Crop, Film, RenderOptions, Scene, Unobserved};
 
 /// All lights and the background so many times as bright.
 fn brightened(mut desc: SceneDesc, factor: f64) -> SceneDesc {
     for light in &mut desc.lights {
         let Light::SphereLight(light) = &mut light.value;
-        let (Emission::Radiance(x) | Emission::Intensity(x) | Emission::Power(x)) = &mut light.emission.value;
-        *x = x.map(|x| x * factor);
+        light.amount.value = light.amount.value.scaled(factor);
     }
     desc.background = desc.background.scaled(factor);
     desc

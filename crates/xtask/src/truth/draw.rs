@@ -6,8 +6,8 @@ use super::world::{World, diffuse, inline};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Background, BlinnPhong, Color, Conductor, Diffuse, Emission, Emissive, Environment, Extent, Instances, Light,
-    LightGroup, Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial, Object, PixelFilter, Placements,
+    Amount, Background, BlinnPhong, Color, Conductor, Diffuse, Emissive, Environment, Extent, Instances, Light,
+    LightGroup, Material, MaterialRef, Mesh, Metal, Mirror, NamedMaterial, Number, Object, PixelFilter, Placements,
     Reflectance, ToneMap, Transform, Transparent,
 };
 use scene_format::diagnostic::Spanned;
@@ -273,13 +273,21 @@ pub fn film(world: &mut World, random: &mut Random) {
     }
     for light in &mut desc.lights {
         let Light::SphereLight(lamp) = &mut light.value;
-        let Emission::Radiance(color) = lamp.emission.value else { continue };
+        let Amount::Radiance(color) = lamp.amount.value else { continue };
         let area = std::f64::consts::PI * lamp.radius.value.powi(2);
-        lamp.emission = match random.below(3) {
-            0 => Emission::Intensity(color.map(|c| c * area)).into(),
-            1 => Emission::Power(color.map(|c| c * 4.0 * std::f64::consts::PI * area)).into(),
+        let seen = 683.0 * Number::of_color(color);
+        let (amount, is_seen) = match random.below(6) {
+            0 => (Amount::Intensity(color.map(|c| c * area)), false),
+            1 => (Amount::Power(color.map(|c| c * 4.0 * std::f64::consts::PI * area)), false),
+            2 => (Amount::Luminance(seen), true),
+            3 => (Amount::LuminousIntensity(seen * area), true),
+            4 => (Amount::LuminousPower(seen * 4.0 * std::f64::consts::PI * area), true),
             _ => continue,
         };
+        lamp.amount = amount.into();
+        if is_seen {
+            lamp.color = color;
+        }
     }
 }
 

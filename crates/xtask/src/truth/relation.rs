@@ -2,7 +2,7 @@
 
 use super::draw::material_of;
 use super::world::World;
-use scene_format::desc::{Background, Emission, Focus, Instances, Light, Material, Object, Placements, Transform};
+use scene_format::desc::{Background, Focus, Instances, Light, Material, Object, Placements, Transform};
 
 /// How the file of a mirror begins that fills the plane x = 0.
 pub const PLANE_MIRROR: &str = "plane-mirror";
@@ -157,13 +157,7 @@ fn with_light_times(world: &World, factor: f64) -> World {
     other.desc.background = other.desc.background.scaled(factor);
     for light in &mut other.desc.lights {
         let Light::SphereLight(lamp) = &mut light.value;
-        let times = |color: [f64; 3]| color.map(|c| factor * c);
-        lamp.emission = match lamp.emission.value {
-            Emission::Radiance(color) => Emission::Radiance(times(color)),
-            Emission::Intensity(color) => Emission::Intensity(times(color)),
-            Emission::Power(color) => Emission::Power(times(color)),
-        }
-        .into();
+        lamp.amount.value = lamp.amount.value.scaled(factor);
     }
     other
 }

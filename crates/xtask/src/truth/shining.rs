@@ -4,7 +4,7 @@ use super::draw::{magnitude, once_in};
 use super::meshes::{Point, Shape};
 use super::world::{World, inline};
 use scene_format::desc::{
-    Amount, Emission, Emissive, Light, Material, Name, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
+    Amount, Emissive, Light, Material, Name, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
 };
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
@@ -63,7 +63,7 @@ pub fn cuboid(world: &mut World, center: Point, radius: f64, material: Material,
 pub fn other_lamps(world: &mut World, random: &mut Random) {
     for light in std::mem::take(&mut world.desc.lights) {
         let Light::SphereLight(lamp) = &light.value;
-        let Emission::Radiance(color) = lamp.emission.value else {
+        let Amount::Radiance(color) = lamp.amount.value else {
             world.desc.lights.push(light);
             continue;
         };
@@ -76,8 +76,12 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
         } else {
             Amount::Radiance(color.map(|c| c * strength))
         };
-        let material =
-            Material::Emissive(Box::new(Emissive { amount: amount.into(), two_sided, group: lamp.group.clone() }));
+        let material = Material::Emissive(Box::new(Emissive {
+            amount: amount.into(),
+            color: [1.0; 3],
+            two_sided,
+            group: lamp.group.clone(),
+        }));
         match random.below(8) {
             5 | 6 => super::curved::shape(world, center, radius, material, random),
             7 => super::curved::ball(world, center, radius, material, random),

@@ -3,7 +3,7 @@
 use super::meshes::{Point, Shape};
 use anyhow::Context as _;
 use scene_format::desc::{
-    Albedo, Color, Diffuse, Emission, Faces, Image, InlineMesh, Instances, Light, LightGroup, Material, MaterialRef,
+    Albedo, Amount, Color, Diffuse, Faces, Image, InlineMesh, Instances, Light, LightGroup, Material, MaterialRef,
     Mesh, MeshSource, Mirror, Name, Object, Placements, Shading, Sphere, SphereLight, Transform, Transparent,
 };
 use scene_format::diagnostic::Spanned;
@@ -94,11 +94,12 @@ impl World {
 
     /// Adds a lamp of this radiance.
     pub fn lamp(&mut self, center: Point, radius: f64, radiance: Color) {
-        let emission = Emission::Radiance(radiance).into();
+        let amount = Amount::Radiance(radiance).into();
         let light = SphereLight {
             center: center.into(),
             radius: radius.into(),
-            emission,
+            amount,
+            color: [1.0; 3],
             camera_visible: true,
             name: Name::default(),
             group: LightGroup::default(),

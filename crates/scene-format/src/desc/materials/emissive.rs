@@ -1,7 +1,8 @@
 //! Surfaces that shine.
 
 use super::MaterialWords;
-use crate::desc::{Color, LightGroup};
+use crate::desc::amount::{amount_of, put_amount};
+use crate::desc::{Amount, Color, LightGroup, Radiometric};
 use crate::diagnostic::Spanned;
 use crate::form::Form;
 use crate::read::Reader;
@@ -9,20 +10,13 @@ use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::Item;
 use crate::words::{Told, Words, scene_struct};
 
-/// How much light a surface gives, per channel.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Amount {
-    /// Radiance in W/(sr m^2).
-    Radiance(Color),
-    /// Power of each copy in W: L = P / (pi A).
-    Power(Color),
-}
-
 /// A surface that shines and reflects nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Emissive {
     /// How much light.
     pub amount: Spanned<Amount>,
+    /// Its colour, as far as it differs from its luminance.
+    pub color: Color,
     /// Whether it shines to both sides, not only outwards.
     pub two_sided: bool,
     /// The group of lights that what shines so is of.
@@ -31,12 +25,27 @@ pub struct Emissive {
 
 scene_struct! {
     /// A surface that shines and reflects nothing: whatever shape has it is a light. How much it shines is said by
-    /// exactly one of `radiance` and `power`.
-    pub(crate) struct EmissiveWords as "Emissive", "an emissive material", exactly one of [radiance, power] {
+    /// exactly one of `radiance`, `power` and `intensity`, or, as people see it, of `luminance`, `luminous_power` and
+    /// `luminous_intensity`.
+    pub(crate) struct EmissiveWords as "Emissive", "an emissive material",
+        exactly one of [radiance, intensity, luminance, luminous_intensity, luminous_power, power] {
         /// Radiance L of every point, in all directions.
         radiance: Option<Spanned<Color>> = None => Rule::light("in W/(sr m^2)");
         /// Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`).
         power: Option<Spanned<Color>> = None => Rule::light("in W");
+        /// Radiant intensity of each copy: of `Rectangle`, `Disk` and `Polygon` along the normal, L = I / A, A the area
+        /// of one side; of `Sphere` L = 4 I / A, the mean over all directions where it was scaled unequally. Other
+        /// shapes have none.
+        intensity: Option<Spanned<Color>> = None => Rule::light("in W/sr");
+        /// Luminance of every point: 683 times the luminance Y of a radiance.
+        luminance: Option<Spanned<f64>> = None => Rule::amount("a luminance", "in cd/m^2");
+        /// Luminous flux of each copy, as lamps are sold: 683 Y of a power.
+        luminous_power: Option<Spanned<f64>> = None => Rule::amount("a luminous flux", "in lm");
+        /// Luminous intensity of each copy: 683 Y of an intensity.
+        luminous_intensity: Option<Spanned<f64>> = None => Rule::amount("a luminous intensity", "in cd");
+        /// The colour of the light. Only what it is beside its own luminance counts: the amount times color / Y(color).
+        /// `"=blackbody(2700)"` is that of a bulb.
+        color: Color = [1.0; 3] => Rule::light("");
         /// Whether it shines to both sides; else only to the normal's: outwards.
         two_sided: bool = false;
         /// The group of lights that what shines so is of: with `output.light_groups`, what each group
@@ -45,33 +54,41 @@ scene_struct! {
     }
 }
 
+impl Emissive {
+    /// How much light, per channel.
+    pub fn radiometric(&self) -> Radiometric {
+        self.amount.value.radiometric(self.color)
+    }
+}
+
 impl Words for Emissive {
     const TYPE: Type = EmissiveWords::TYPE;
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         let words = EmissiveWords::read(reader, item, at)?;
-        let amount = match (words.radiance, words.power) {
-            (Some(color), _) => Spanned { value: Amount::Radiance(color.value), span: color.span },
-            (_, Some(color)) => Spanned { value: Amount::Power(color.value), span: color.span },
-            // None was written, or what was written could not be read: reported.
-            _ => return None,
-        };
-        Some(Emissive { amount, two_sided: words.two_sided, group: words.group })
+        // None was written, or what was written could not be read: reported.
+        let amount = amount_of!(words)?;
+        Some(Emissive { amount, color: words.color, two_sided: words.two_sided, group: words.group })
     }
 
     fn form(&self, all: bool) -> Form {
-        let (two_sided, group) = (self.two_sided, self.group.clone());
-        let mut words = EmissiveWords { radiance: None, power: None, two_sided, group };
-        match self.amount.value {
-            Amount::Power(color) => words.power = Some(color.into()),
-            Amount::Radiance(color) => words.radiance = Some(color.into()),
-        }
+        let mut words = EmissiveWords {
+            radiance: None,
+            power: None,
+            intensity: None,
+            luminance: None,
+            luminous_power: None,
+            luminous_intensity: None,
+            color: self.color,
+            two_sided: self.two_sided,
+            group: self.group.clone(),
+        };
+        put_amount!(self.amount.value, words);
         let mut form = words.form(all);
         // Of the amounts the one that is not written has no default to show: only one may be there.
         if let Form::Struct { fields, .. } = &mut form {
-            let amounts = ["radiance", "power"];
             let is_none = |form: &Form| matches!(form, Form::Variant { name: "None", .. });
-            fields.retain(|field| !amounts.contains(&&*field.name) || !is_none(&field.value));
+            fields.retain(|field| !EmissiveWords::DEF.exactly_one.contains(&&*field.name) || !is_none(&field.value));
         }
         form
     }

@@ -12,7 +12,7 @@ mod transparent;
 pub use blinn_phong::BlinnPhong;
 pub use conductor::{Conductor, Metal, Reflectance};
 pub use diffuse::Diffuse;
-pub use emissive::{Amount, Emissive};
+pub use emissive::Emissive;
 pub use mirror::Mirror;
 pub use transparent::Transparent;
 

@@ -2,7 +2,7 @@
 
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Albedo, BlinnPhong, Color, Diffuse, Effects, Emission, Image, Instances, Light, LightGroup, Material, MaterialRef,
+    Albedo, Amount, BlinnPhong, Color, Diffuse, Effects, Image, Instances, Light, LightGroup, Material, MaterialRef,
     Mesh, MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
     TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3,
 };
@@ -57,7 +57,8 @@ pub fn light(center: Vec3, radius: f64, radiance: Color) -> SphereLight {
     SphereLight {
         center: center.into(),
         radius: radius.into(),
-        emission: Emission::Radiance(radiance).into(),
+        amount: Amount::Radiance(radiance).into(),
+        color: [1.0; 3],
         camera_visible: true,
         name: Name::default(),
         group: LightGroup::default(),
