@@ -212,11 +212,23 @@ mod tests {
     }
 
     #[test]
+    fn the_manual_has_every_function() {
+        let manual = crate::reference::reference();
+        let (_, list) = manual.split_once("- Functions: ").expect("a list");
+        let (list, _) = list.split_once("\n\n").expect("its end");
+        let words: Vec<&str> = list.split(|letter: char| !letter.is_alphanumeric()).collect();
+        for (name, _) in crate::expression::functions() {
+            assert!(words.contains(&name), "{name}");
+        }
+    }
+
+    #[test]
     fn functions_and_words_of_every_day_are_explained() {
         for (word, told) in [
             ("keyframes", "keyframes(t, t0, value0"),
             ("random", "the same for the same"),
             ("hsv", "hue"),
+            ("blackbody", "what glows at that temperature"),
             ("Pick", "One of several values"),
             ("repeat", "Puts its items into the list"),
             ("frame", "from 0"),

@@ -260,25 +260,6 @@ pub fn compile(desc: &SceneDesc, form: DiagnosticsForm, known: Known<'_>, shell:
     Ok(scene)
 }
 
-/// How many things shine: the scene's lights, and objects that do, each with all its parts one.
-pub fn lights(desc: &SceneDesc, scene: &Scene) -> usize {
-    let named =
-        |name: &str| desc.materials.iter().find(|named| *named.name.value == *name).map(|named| &named.material);
-    let shining = desc.objects.iter().filter(|object| {
-        let material = match object.value.material() {
-            MaterialRef::Inline(material) => Some(&material.value),
-            MaterialRef::Named { name, .. } => named(name),
-            MaterialRef::Default => None,
-        };
-        material.is_some_and(|material| material.shines().is_some())
-    });
-    match desc.lights.len() + shining.count() {
-        // Those that materials of a mesh's own file make of its triangles.
-        0 => scene.lights.len(),
-        lights => lights,
-    }
-}
-
 /// The files that the scene names, in the order of their first mention: scenes, meshes, placements, textures.
 pub fn asset_files(desc: &SceneDesc) -> Vec<&Path> {
     let mut files: Vec<&Path> = desc.includes.iter().map(|file| &**file).collect();

@@ -1,6 +1,7 @@
 //! Scenes by chance, of every word that a description has.
 
 use super::Random;
+use super::lights::{emissive, light_group, sphere_light};
 use super::solid::solid;
 use super::textures::{albedo, named_textures, varying};
 use scene_format::SceneDesc;
@@ -37,17 +38,6 @@ pub(super) fn text(random: &mut Random) -> String {
     format!("n{letters}")
 }
 
-fn amount(random: &mut Random, color: Color) -> Amount {
-    match random.below(6) {
-        0 => Amount::Radiance(color),
-        1 => Amount::Intensity(color),
-        2 => Amount::Power(color),
-        3 => Amount::Luminance(color[0]),
-        4 => Amount::LuminousIntensity(color[1]),
-        _ => Amount::LuminousPower(color[2]),
-    }
-}
-
 fn material(random: &mut Random) -> Material {
     match random.below(6) {
         5 => Material::Conductor(Box::new(Conductor {
@@ -60,18 +50,7 @@ fn material(random: &mut Random) -> Material {
             multiple_scattering: random.below(2) == 0,
         })),
         0 => Material::Diffuse(Diffuse { albedo: albedo(random) }),
-        4 => {
-            let color = share(random).map(|channel| channel * 1e3);
-            // Only some shapes have an intensity.
-            let amount = match amount(random, color) {
-                Amount::Intensity(color) => Amount::Radiance(color),
-                Amount::LuminousIntensity(number) => Amount::Luminance(number),
-                other => other,
-            };
-            let color = if random.below(2) == 0 { [1.0; 3] } else { share(random) };
-            let (two_sided, group) = (random.below(2) == 0, light_group(random));
-            Material::Emissive(Box::new(Emissive { amount: amount.into(), color, two_sided, group }))
-        }
+        4 => Material::Emissive(Box::new(emissive(random))),
         1 => Material::Mirror(Mirror { reflectance: albedo(random) }),
         2 => Material::Transparent(Box::new(Transparent {
             ior: number(random, 1.0, 3.0).into(),
@@ -496,19 +475,6 @@ pub fn scene(random: &mut Random) -> SceneDesc {
         objects.push(Object::Sphere(Box::new(sphere)).into());
     }
     grouped(random, &mut objects);
-    let light = |random: &mut Random| {
-        let color = share(random).map(|channel| channel * 100.0);
-        let amount = amount(random, color);
-        Light::SphereLight(SphereLight {
-            center: vector(random).into(),
-            radius: length(random).into(),
-            amount: amount.into(),
-            color: if random.below(2) == 0 { [1.0; 3] } else { share(random) },
-            camera_visible: random.below(4) != 0,
-            name: name(random),
-            group: light_group(random),
-        })
-    };
     let defaults = SceneDesc::default();
     let (seen, lens) = view(random);
     let mut camera =
@@ -573,15 +539,11 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             })),
             _ => share(random).into(),
         },
-        lights: (0..random.below(3)).map(|_| light(random).into()).collect(),
+        lights: (0..random.below(3)).map(|_| sphere_light(random).into()).collect(),
         materials,
         objects,
         ..defaults
     }
-}
-
-fn light_group(random: &mut Random) -> LightGroup {
-    LightGroup::from((random.below(3) == 0).then(|| format!("of {}", text(random))))
 }
 
 fn mask(name: &str) -> Spanned<MaskName> {

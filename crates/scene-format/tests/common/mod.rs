@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 
 pub mod generated;
+mod lights;
 mod solid;
 mod textures;
 

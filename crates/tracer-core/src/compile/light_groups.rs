@@ -1,4 +1,4 @@
-//! Which group each light of a compiled scene is of.
+//! Which object each light of a compiled scene is, and of which group.
 
 use crate::scene::LightGroups;
 use scene_format::SceneDesc;
@@ -46,6 +46,11 @@ pub fn most_light_groups(desc: &SceneDesc) -> usize {
     let all = inline.chain(named).chain(lamps).chain(background);
     let names: BTreeSet<String> = all.filter_map(|group| group.as_str().map(str::to_owned)).collect();
     names.len() + 1
+}
+
+/// How many things of a scene shine: its lamps, and objects that do, in whole or in part, each with all its copies one.
+pub fn shining_objects(scene: &crate::Scene) -> usize {
+    of_lights(scene).into_iter().filter(|&object| object != NONE).collect::<BTreeSet<u32>>().len()
 }
 
 /// The object that each light is, as surfaces name it: behind the objects of the scene come its lamps.

@@ -87,6 +87,11 @@ impl Assigned {
         self.shining.iter().any(|materials| !materials.is_empty())
     }
 
+    /// Whether an object shines, in whole or in part.
+    fn shines(&self, object: usize, file: usize) -> bool {
+        self.emissive[object].is_some() || self.own_radiance(object, file).next().is_some()
+    }
+
     /// What the file's own materials shine that an object has.
     fn own_radiance(&self, object: usize, file: usize) -> impl Iterator<Item = [f64; 3]> {
         let own = if self.of_object[object] == NONE { &self.shining[file][..] } else { &[] };
@@ -268,7 +273,6 @@ pub struct Parts<'a> {
 
 /// Brings the meshes into render space. `written`, where a pattern asks for it: from the coordinates that things are
 /// written in to the world, the first the world's own.
-// Long: copies with triangles of their own, which may shine, and shared ones are put in one order.
 pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAffine3>>) -> Built {
     let Parts { desc, loaded, placed, assigned, .. } = *parts;
     let variant = |object: &Polygonal<'_>, file: usize| Variant {
@@ -308,31 +312,16 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
         if let Some(written) = written.as_mut() {
             built.add_coordinates(polygonal, &placed.maps[object], written);
         }
-        let emissive = assigned.emissive[object].as_ref();
-        let own = &assigned.shining[variant.file];
-        let shines_in_part = assigned.own_radiance(object, variant.file).next().is_some();
-        if emissive.is_some()
-            || shines_in_part
-            || flattened(polygonal.instances, copies[&variant], data.triangles.len())
-        {
+        let shines = assigned.shines(object, variant.file);
+        if shines || flattened(polygonal.instances, copies[&variant], data.triangles.len()) {
             for (copy, world) in worlds.enumerate() {
                 built.vertices_of.push((variant.file, built.triangles.positions.len() as u32));
                 let mesh = built.add_mesh(data, variant.smooth, &world, frame.scale, whole, own_materials);
                 built.instances.push(Instance { mesh, material: whole, object: polygonal.number, placement: None });
-                let in_unit = |radiance: [f64; 3]| radiance.map(|x| x / parts.radiance_unit);
-                if let Some(emissive) = emissive {
-                    let radiance = in_unit(parts.radiances[object][copy]);
+                if shines {
                     let quads = matches!(polygonal.geometry, Geometry::Unit(_));
                     let mirrored = world.matrix3.determinant() < 0.0;
-                    let shine = Shine { two_sided: emissive.two_sided, quads, mirrored };
-                    built.add_lights(mesh, &shine, parts.first_light, |_| Some(radiance));
-                } else if shines_in_part {
-                    let shine = Shine { two_sided: true, quads: false, mirrored: false };
-                    let radiance = |triangle: usize| {
-                        let material = *data.triangle_material.get(triangle)?;
-                        own.get(material as usize).copied().flatten().map(in_unit)
-                    };
-                    built.add_lights(mesh, &shine, parts.first_light, radiance);
+                    built.add_lights_of(parts, (object, copy), variant.file, (mesh, quads, mirrored));
                 }
             }
             continue;
@@ -514,6 +503,32 @@ impl Built {
         t.material.extend((0..data.triangles.len()).map(material));
         self.meshes.push(Mesh { first_triangle, triangle_count: data.triangles.len() as u32 });
         self.meshes.len() as u32 - 1
+    }
+
+    /// Makes lights of the triangles of a copy that shines, in whole or in part; `mesh`: its own, whether it is made of
+    /// quads, and whether it is mirrored.
+    fn add_lights_of(
+        &mut self,
+        parts: &Parts<'_>,
+        (object, copy): (usize, usize),
+        file: usize,
+        (mesh, quads, mirrored): (u32, bool, bool),
+    ) {
+        let in_unit = |radiance: [f64; 3]| radiance.map(|x| x / parts.radiance_unit);
+        if let Some(emissive) = &parts.assigned.emissive[object] {
+            let radiance = in_unit(parts.radiances[object][copy]);
+            let shine = Shine { two_sided: emissive.two_sided, quads, mirrored };
+            self.add_lights(mesh, &shine, parts.first_light, |_| Some(radiance));
+            return;
+        }
+        let (materials, own) = (&parts.loaded.files[file].triangle_material, &parts.assigned.shining[file]);
+        let radiance = |triangle: usize| {
+            let material = *materials.get(triangle)?;
+            own.get(material as usize).copied().flatten().map(in_unit)
+        };
+        // What files say shines to both sides.
+        let shine = Shine { two_sided: true, quads, mirrored };
+        self.add_lights(mesh, &shine, parts.first_light, radiance);
     }
 
     /// Makes lights of a mesh's triangles, or of their pairs where those are parallelograms; `first`: the index of the

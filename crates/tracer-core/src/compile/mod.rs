@@ -40,7 +40,7 @@ pub use files::{check_files, check_files_from};
 pub use frames::{LookedAt, Looking, ToldFrame, check_frames};
 use glam::{DAffine3, DVec3};
 pub use kept::Kept;
-pub use light_groups::most_light_groups;
+pub use light_groups::{most_light_groups, shining_objects};
 use materials::{Finished, MaterialBuilder};
 use scene_format::codes;
 use scene_format::desc::{Acceleration, Caustics, Integrator, Reuse};

@@ -4,7 +4,7 @@ use super::{fix, scenes};
 use crate::args::{CheckArgs, DiagnosticsForm};
 use crate::failure::{Failure, exit};
 use crate::frames;
-use crate::loading::{Known, compile, is_dash, lights, load_to_look, use_threads, with_faults_of_files};
+use crate::loading::{Known, compile, is_dash, load_to_look, use_threads, with_faults_of_files};
 use crate::shell::{Shell, counted, sarif};
 use scene_format::diagnostic::{Severity, Source};
 use scene_format::{Diagnostics, LoadError, Syntax, codes, is_library, load_str};
@@ -90,7 +90,8 @@ fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure>
         return Err(Failure::WrongScene);
     }
     if args.diagnostics == DiagnosticsForm::Text {
-        let (objects, lights) = (counted(desc.objects.len(), "object"), counted(lights(&desc, &scene), "light"));
+        let (objects, lights) =
+            (counted(desc.objects.len(), "object"), counted(tracer_core::shining_objects(&scene), "light"));
         let frames = frames.count.map_or(String::new(), |frames| format!(", {frames}"));
         let cameras = args_of_scene
             .camera

@@ -324,7 +324,24 @@ fn small_words_are_right() {
     let ran = sandbox.run(&["check", "lamp.ron"]).ends(0);
     assert!(ran.out_text().contains("2 objects, 1 light"), "{}", ran.out_text());
     let info = sandbox.run(&["info", "lamp.ron"]).ends(0).out_text();
-    assert!(!info.contains("0.0000"), "{info}");
+    assert!(!info.contains("0.0000") && info.contains("lights     1\n"), "{info}");
+    // A mesh that shines by its own file is one, too.
+    sandbox.write("lamp.mtl", "newmtl on\nKe 3\nnewmtl off\nKd 0.5\n");
+    sandbox.write(
+        "lamp.obj",
+        "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl on\nf 1 2 3 4\nusemtl off\nf 4 3 2\n",
+    );
+    let light = "SphereLight(center: (0, 9, 0), radius: 1, power: 100)";
+    sandbox.write("file.ron", format!("Scene(objects: [Mesh(file: \"lamp.obj\")], lights: [{light}])"));
+    sandbox.write("only.ron", "Scene(objects: [Mesh(file: \"lamp.obj\")])");
+    for (scene, lights) in [("file.ron", "2 lights"), ("only.ron", "1 light")] {
+        let ran = sandbox.run(&["check", scene, "--deny-warnings"]).ends(0);
+        assert!(ran.out_text().contains(&format!("1 object, {lights}")), "{}", ran.out_text());
+        let info = sandbox.run(&["info", scene]).ends(0).out_text();
+        assert!(info.contains(&format!("lights     {}\n", &lights[..1])), "{info}");
+    }
+    sandbox.write("lamp.mtl", "newmtl on\nKd 0.9\nnewmtl off\nKd 0.5\n");
+    sandbox.run(&["check", "only.ron"]).ends(0).says(&["W0301", "no light"]);
     let line = ["render", "scene.ron", "-o", "a.png", "--resume", "a.film"];
     sandbox.run(&line).ends(0).says(&["samples/s"]);
     let ran = sandbox.run(&line).ends(0);

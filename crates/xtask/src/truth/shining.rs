@@ -4,7 +4,7 @@ use super::draw::{magnitude, once_in};
 use super::meshes::{Point, Shape};
 use super::world::{World, inline};
 use scene_format::desc::{
-    Amount, Emissive, Light, Material, Name, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
+    Amount, Emissive, Light, Material, Name, Number, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
 };
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
@@ -70,15 +70,18 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
         let (center, radius) = (lamp.center.value, lamp.radius.value);
         let two_sided = once_in(random, 2);
         let strength = magnitude(random, 0.5, 2.0);
-        let amount = if once_in(random, 3) {
-            let area = 4.0 * std::f64::consts::PI * radius * radius;
-            Amount::Power(color.map(|c| c * strength * std::f64::consts::PI * area))
-        } else {
-            Amount::Radiance(color.map(|c| c * strength))
+        // Of a power that of a ball's surface.
+        let power = 4.0 * (std::f64::consts::PI * radius).powi(2);
+        let seen = 683.0 * strength * Number::of_color(color);
+        let (amount, tint) = match random.below(6) {
+            0 => (Amount::Power(color.map(|c| c * strength * power)), [1.0; 3]),
+            1 => (Amount::LuminousPower(seen * power), color),
+            2 => (Amount::Luminance(seen), color),
+            _ => (Amount::Radiance(color.map(|c| c * strength)), [1.0; 3]),
         };
         let material = Material::Emissive(Box::new(Emissive {
             amount: amount.into(),
-            color: [1.0; 3],
+            color: tint,
             two_sided,
             group: lamp.group.clone(),
         }));

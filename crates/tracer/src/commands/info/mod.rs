@@ -169,7 +169,7 @@ impl Facts {
             let all: Vec<String> = spheres.chain(other).chain([counted(meshes, "mesh")]).collect();
             format!("{total} ({})", all.join(", "))
         });
-        line("lights", s.lights.to_string());
+        line("lights", tracer_core::shining_objects(&self.scene).to_string());
         line(
             "triangles",
             format!(
@@ -241,7 +241,7 @@ impl Facts {
                 "seed": self.scene.seed,
             },
             "objects": objects,
-            "lights": s.lights,
+            "lights": tracer_core::shining_objects(&self.scene),
             "meshes": s.meshes,
             "files": asset_files(&self.desc),
             "instances": s.instances,
