@@ -143,7 +143,14 @@ fn materials_of_mtl_become_ours() {
     for (mtl, expected, said) in [
         ("", diffuse([0.8; 3]), silent()),
         ("Ka 1 1 1\nKd 0.1 0.2 0.3\nKe 0 0 0\nillum 1\nKs 1 1 1\nNs 10", diffuse([0.1, 0.2, 0.3]), silent()),
-        ("Kd 0.5\nKe 3 2 1\nillum 2\nKs 1 1 1\nNs 10", emissive([3.0, 2.0, 1.0]), silent()),
+        ("Kd 0 0 0\nKe 3 2 1\nillum 2\nKs 0 0 0\nNs 10", emissive([3.0, 2.0, 1.0]), silent()),
+        (
+            "Kd 0.5\nKe 3 2 1\nillum 2\nKs 1 1 1\nNs 10\nd 0.5",
+            emissive([3.0, 2.0, 1.0]),
+            "not supported: `Kd` beside `Ke` (what shines reflects nothing), `Ks` beside `Ke` (what shines reflects \
+             nothing), `d` beside `Ke` (what shines reflects nothing)"
+                .into(),
+        ),
         ("Ke 5 -1 0", emissive([5.0, 0.0, 0.0]), "not supported: `Ke` outside 0 to 1e30 (clipped)".into()),
         ("\tKd 0.5\r", diffuse([0.5; 3]), silent()),
         ("Kd 0.5 0.5 0.5\nKs 0 0 0\nNs 100\nillum 2", diffuse([0.5; 3]), silent()),

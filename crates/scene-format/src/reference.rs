@@ -232,7 +232,8 @@ the share of `Ks` in it, `exponent` is `Ns` |
 `map_Kd` replaces the albedo by a picture. Colours are linear RGB. `Ka` is passed over, since light from all around is \
 computed here. All
 else (other maps, `d` between 0 and 1) is not taken, and W0511 says so once for a mesh, with the materials' \
-names.
+names. Of a
+mesh in so many copies that they share their triangles (`instances`) none shines by `Ke`, which W0511 tells, too.
 
 Glass needs to know where its inside is: seen from outside, the corners of a face go round counterclockwise (W0305 \
 tells of meshes that

@@ -264,6 +264,6 @@ fn mutants_of(scene: &Scene) {
     });
     assert!(matches!(Film::load(&mut &b"Scene(objects: [])"[..]), Err(FilmError::Foreign)));
     let mut later = file.clone();
-    later[8] = 8;
-    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(8))));
+    later[8] = 9;
+    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(9))));
 }

@@ -216,6 +216,9 @@ fn turn(mtl: &MtlMaterial, files: &Files, notes: &mut Notes) -> Material {
         notes.unsupported(statement);
     }
     if let Some(emission) = mtl.emission.map(|color| light("Ke", color, notes)).filter(|color| *color != [0.0; 3]) {
+        for statement in lost_by_shining(mtl) {
+            notes.unsupported(&format!("`{statement}` beside `Ke` (what shines reflects nothing)"));
+        }
         return Material::Emissive(Box::new(Emissive {
             amount: Amount::Radiance(emission).into(),
             color: [1.0; 3],
@@ -294,6 +297,19 @@ fn picture_of(mtl: &MtlMaterial, diffuse: Option<Color>, files: &Files, notes: &
     }
     let wrap = if picture.clamp { TextureWrap::Clamp } else { TextureWrap::Repeat };
     Some(Albedo::Texture(Texture { wrap, ..Texture::of(file.into()) }))
+}
+
+/// What a material says of light that meets it.
+fn lost_by_shining(mtl: &MtlMaterial) -> impl Iterator<Item = &'static str> {
+    let colored = |color: Option<Color>| color.is_some_and(|color| color != [0.0; 3]);
+    let is_clear = mtl.opacity.is_some_and(|opacity| opacity < 1.0) || matches!(mtl.illumination, Some(4 | 6 | 7 | 9));
+    let all = [
+        ("Kd", colored(mtl.diffuse)),
+        ("map_Kd", mtl.picture.is_some()),
+        ("Ks", colored(mtl.specular) && !matches!(mtl.illumination, Some(0 | 1))),
+        ("d", is_clear),
+    ];
+    all.into_iter().filter_map(|(statement, is_said)| is_said.then_some(statement))
 }
 
 /// Light that a scene can have.

@@ -37,12 +37,15 @@ pub enum Radiometric {
 impl Amount {
     /// The amount times `color` / Y(`color`), Y = 0.2126 R + 0.7152 G + 0.0722 B; photometric ones are 683 lm/W Y.
     pub fn radiometric(&self, color: Color) -> Radiometric {
-        let [r, g, b] = color;
+        // Beside the largest channel, so that none is too small to be divided by.
+        let largest = color.into_iter().fold(0.0, f64::max);
+        let [r, g, b] = if largest > 0.0 { color.map(|c| c / largest) } else { [0.0; 3] };
         let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        // Greys are as they are written, to the last bit.
-        let tint = match luminance {
-            _ if r == g && g == b => [if r > 0.0 { 1.0 } else { 0.0 }; 3],
-            _ => color.map(|c| c / luminance),
+        let tint = match largest {
+            0.0 => [0.0; 3],
+            // Greys are as they are written, to the last bit.
+            _ if r == g && g == b => [1.0; 3],
+            _ => [r, g, b].map(|c| c / luminance),
         };
         let times = |amount: Color| [amount[0] * tint[0], amount[1] * tint[1], amount[2] * tint[2]];
         let seen = |amount: f64| times([amount / LUMENS_PER_WATT; 3]);
@@ -135,6 +138,8 @@ mod tests {
         near(green, Radiometric::Intensity([0.0, 1.0 / 0.7152, 0.0]));
         near(Amount::Radiance([2.0, 3.0, 5.0]).radiometric([1.0; 3]), Radiometric::Radiance([2.0, 3.0, 5.0]));
         near(Amount::Power([1.0; 3]).radiometric([0.0; 3]), Radiometric::Power([0.0; 3]));
+        let faint = Amount::Power([1.0; 3]).radiometric([5e-324, 0.0, 0.0]);
+        near(faint, Radiometric::Power([1.0 / 0.2126, 0.0, 0.0]));
         // What people see of it is what was asked for, whatever the colour.
         let Radiometric::Radiance([r, g, b]) = Amount::Luminance(100.0).radiometric([0.9, 0.2, 0.7]) else { panic!() };
         assert!((683.0 * (0.2126 * r + 0.7152 * g + 0.0722 * b) - 100.0).abs() < 1e-9);

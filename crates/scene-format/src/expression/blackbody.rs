@@ -1,7 +1,7 @@
 //! The colour of a black body.
 
-/// Temperatures in K.
-const RANGE: std::ops::RangeInclusive<f64> = 500.0..=40000.0;
+/// Those that have a colour, in K.
+pub(crate) const TEMPERATURES: std::ops::RangeInclusive<f64> = 500.0..=40000.0;
 
 /// h c / k in m K (CODATA 2018, exact).
 const C2: f64 = 1.438776877e-2;
@@ -9,7 +9,7 @@ const C2: f64 = 1.438776877e-2;
 /// Linear sRGB, of luminance one: Planck's law seen by the CIE's observer of 1931 in steps of 5 nm, what lies outside
 /// of sRGB clipped at zero. `None` outside of 500 to 40000 K.
 pub(super) fn blackbody(kelvin: f64) -> Option<[f64; 3]> {
-    if !RANGE.contains(&kelvin) {
+    if !TEMPERATURES.contains(&kelvin) {
         return None;
     }
     let mut sums = [0.0; 3];

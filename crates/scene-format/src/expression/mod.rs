@@ -8,6 +8,7 @@ mod functions;
 mod parse;
 mod value;
 
+pub(crate) use blackbody::TEMPERATURES;
 pub(crate) use parse::evaluate;
 pub(crate) use value::{List, MOST_LISTS, Value};
 

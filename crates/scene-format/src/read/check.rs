@@ -2,7 +2,7 @@
 
 use super::{Reader, Step};
 use crate::codes;
-use crate::desc::{CameraChoice, Chosen, MaterialRef, Object, Output, Scene, VERSION};
+use crate::desc::{CameraChoice, Chosen, Integrator, MaterialRef, Object, Output, Scene, VERSION};
 use crate::diagnostic::{Diagnostic, Severity, Span, Spanned};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::suggest;
@@ -97,7 +97,9 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
         // What the materials of a mesh's own file are, whoever reads that file says.
         let objects = &scene.objects.0;
         let dark = dark && !objects.iter().any(|object| shines(object) || object.value.has_materials_of_file());
-        if dark && black && !is_wrong && !reader.materials.any_shines() {
+        // Which is of no light.
+        let occlusion = matches!(scene.render.integrator, Integrator::AmbientOcclusion { .. });
+        if dark && black && !occlusion && !is_wrong && !reader.materials.any_shines() {
             let lights = lights.map(|lights| lights.span());
             reader.path.push(Step::Field("lights"));
             reader.report(

@@ -8,6 +8,7 @@ use crate::codes;
 use crate::desc::is_texture;
 use crate::desc::matrix::unnamed_rows;
 use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::expression::TEMPERATURES;
 use crate::schema::{FieldDef, StructDef};
 use crate::syntax::{Syntax, decode};
 use crate::tree::{Item, Kind};
@@ -101,7 +102,7 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
     ];
     if at.rule.color
         && count == 3
-        && let Some(kelvin) = kelvin(item)
+        && let Some(kelvin) = kelvin(item).filter(|kelvin| TEMPERATURES.contains(&decode::number(kelvin)))
     {
         return Some(format!("\"=blackbody({kelvin})\""));
     }

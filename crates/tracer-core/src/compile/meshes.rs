@@ -14,6 +14,7 @@ use super::polygonal::{Geometry, Polygonal, polygonal};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use scene_format::desc::{Emissive, Instances, MaterialRef, Placements, Radiometric, Shading};
+use scene_format::diagnostic::Span;
 use scene_format::{Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -85,11 +86,6 @@ impl Assigned {
     /// Whether anything shines by the materials of its own file.
     pub fn shines_by_file(&self) -> bool {
         self.shining.iter().any(|materials| !materials.is_empty())
-    }
-
-    /// Whether an object shines, in whole or in part.
-    fn shines(&self, object: usize, file: usize) -> bool {
-        self.emissive[object].is_some() || self.own_radiance(object, file).next().is_some()
     }
 
     /// What the file's own materials shine that an object has.
@@ -179,16 +175,15 @@ impl Placed {
     }
 }
 
-/// What the copies of an object shine, per copy; empty where it does not. L = P / (pi A), or I / A.
+/// What the copies of an object shine, per copy; empty where it does not. L = P / (pi A), or I / A. Of an object that
+/// shines by materials of its file, what each of these shines.
 pub fn radiances(loaded: &Loaded, placed: &Placed, assigned: &Assigned) -> Vec<Vec<[f64; 3]>> {
     let of_object = |(object, emissive): (usize, &Option<Emissive>)| {
         let Some(file) = loaded.file_of_object[object] else { return Vec::new() };
         let Some(emissive) = emissive else {
-            let brightest = assigned
-                .own_radiance(object, file)
-                .fold([0.0; 3], |a: [f64; 3], b| if b.iter().sum::<f64>() > a.iter().sum() { b } else { a });
-            let copies = if brightest == [0.0; 3] { 0 } else { placed.maps[object].len() };
-            return vec![brightest; copies];
+            // Copies are alike.
+            let is_there = !placed.maps[object].is_empty();
+            return assigned.own_radiance(object, file).filter(|_| is_there).collect();
         };
         let data = &loaded.files[file];
         let of_area = |amount: [f64; 3], area: f64| amount.map(|x| if area > 0.0 { x / area } else { 0.0 });
@@ -226,6 +221,8 @@ pub struct Built {
     pub instances: Vec<Instance>,
     /// Per copy which of the coordinates that [`build`] was given it is written in; empty where nobody asks.
     pub coordinates: Vec<u32>,
+    /// Objects whose materials by their files would shine, but whose copies share their triangles.
+    pub unlit: Vec<Span>,
     /// Per mesh the file that it is of, and its first vertex.
     pub vertices_of: Vec<(usize, u32)>,
 }
@@ -271,10 +268,8 @@ pub struct Parts<'a> {
     pub first_light: u32,
 }
 
-/// Brings the meshes into render space. `written`, where a pattern asks for it: from the coordinates that things are
-/// written in to the world, the first the world's own.
-pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAffine3>>) -> Built {
-    let Parts { desc, loaded, placed, assigned, .. } = *parts;
+/// The objects of triangles, each with the mesh that it is.
+fn variants<'d>(desc: &'d SceneDesc, loaded: &Loaded) -> Vec<(Polygonal<'d>, Option<Variant>)> {
     let variant = |object: &Polygonal<'_>, file: usize| Variant {
         file,
         smooth: match object.shading {
@@ -283,13 +278,20 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
             Shading::Auto => !loaded.files[file].normals.is_empty(),
         },
     };
-    let objects: Vec<(Polygonal<'_>, Option<Variant>)> = polygonal(desc)
+    polygonal(desc)
         .zip(&loaded.file_of_object)
         .map(|(object, file)| {
             let variant = file.map(|file| variant(&object, file));
             (object, variant)
         })
-        .collect();
+        .collect()
+}
+
+/// Brings the meshes into render space. `written`, where a pattern asks for it: from the coordinates that things are
+/// written in to the world, the first the world's own.
+pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAffine3>>) -> Built {
+    let Parts { desc, loaded, placed, assigned, .. } = *parts;
+    let objects = variants(desc, loaded);
     let mut copies: BTreeMap<Variant, usize> = BTreeMap::new();
     for ((_, variant), maps) in objects.iter().zip(&placed.maps) {
         if let Some(variant) = variant {
@@ -312,8 +314,15 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
         if let Some(written) = written.as_mut() {
             built.add_coordinates(polygonal, &placed.maps[object], written);
         }
-        let shines = assigned.shines(object, variant.file);
-        if shines || flattened(polygonal.instances, copies[&variant], data.triangles.len()) {
+        let flat = flattened(polygonal.instances, copies[&variant], data.triangles.len());
+        let shines_in_part = assigned.own_radiance(object, variant.file).next().is_some();
+        // Copies that share their triangles are no lights: of a thousand meshes of which a lamp is a part, each would
+        // have to have all its triangles.
+        if shines_in_part && !flat {
+            built.unlit.push(polygonal.span);
+        }
+        let shines = assigned.emissive[object].is_some() || shines_in_part && flat;
+        if shines || flat {
             for (copy, world) in worlds.enumerate() {
                 built.vertices_of.push((variant.file, built.triangles.positions.len() as u32));
                 let mesh = built.add_mesh(data, variant.smooth, &world, frame.scale, whole, own_materials);

@@ -245,6 +245,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     };
     let mut built = meshes::build(&frame, &parts, written.as_mut());
     lights.append(&mut built.lights);
+    diagnostics.extend(built.unlit.iter().map(|&span| unmeant::unlit(span)));
     let color_table = vertex_colors::table(&programs, &loaded, &built);
     drop((loaded, placed));
     let material_table = MaterialTable::new(&materials, uses.len() as u32, (uses.len() + patterns.len()) as u32);

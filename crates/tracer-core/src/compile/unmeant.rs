@@ -5,7 +5,7 @@ use super::curved::Curved;
 use super::meshes::{Assigned, Loaded, Placed};
 use super::polygonal::{Geometry, UnitShape, polygonal};
 use glam::{DAffine3, DVec3};
-use scene_format::desc::{Albedo, Light, Material, MaterialRef, Object};
+use scene_format::desc::{Albedo, Integrator, Light, Material, MaterialRef, Object};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeMap;
@@ -208,14 +208,25 @@ pub fn no_light(desc: &SceneDesc, assigned: &Assigned, diagnostics: &mut Diagnos
         MaterialRef::Inline(material) => material.value.shines().is_some(),
         MaterialRef::Named { .. } | MaterialRef::Default => false,
     };
-    let shines = desc.materials.iter().any(|named| named.material.shines().is_some());
+    let shines = desc.materials.iter().any(|named| named.material.shines().is_some())
+        || matches!(desc.render.integrator, Integrator::AmbientOcclusion { .. });
     if of_files && dark && !shines && !desc.objects.iter().any(inline) {
         let message = "the scene has no light, so the picture will be black";
         diagnostics.push(
             Diagnostic::warning(codes::BLACK_PICTURE, Span::NONE, message)
-                .expected("a light, a `background`, or an object that shines"),
+                .expected("a light, a `background`, or an object that shines")
+                .hint("add a `SphereLight` to `lights`, or a `background`"),
         );
     }
+}
+
+/// A mesh whose own file says that parts of it shine, in too many copies for each to have triangles of its own.
+pub fn unlit(span: Span) -> Diagnostic {
+    let message =
+        "this mesh's own materials shine (`Ke`), but its many copies share their triangles: none of them shines";
+    Diagnostic::warning(codes::MTL_UNSUPPORTED, span, message)
+        .expected("lamps as objects of their own, with `material: Emissive(radiance: ..)`")
+        .hint("with `instances: Never` each copy has triangles of its own, and shines")
 }
 
 /// Whether a material has another colour at another place of a surface's texture coordinates.

@@ -340,6 +340,15 @@ fn small_words_are_right() {
         let info = sandbox.run(&["info", scene]).ends(0).out_text();
         assert!(info.contains(&format!("lights     {}\n", &lights[..1])), "{info}");
     }
+    // So many copies share their triangles, unless they are asked not to.
+    for (instances, told) in [("Auto", "none of them shines"), ("Always", "none of them shines"), ("Never", "")] {
+        let mesh = format!("Mesh(file: \"lamp.obj\", placements: Grid(count: (40, 40, 1)), instances: {instances})");
+        sandbox.write("many.ron", format!("Scene(background: 1, objects: [{mesh}])"));
+        let ran = sandbox.run(&["check", "many.ron"]).ends(0);
+        assert!(ran.err.contains(told) && ran.err.is_empty() == told.is_empty(), "{instances}: {}", ran.err);
+        let lights = if told.is_empty() { "1 light" } else { "0 lights" };
+        assert!(ran.out_text().contains(lights), "{instances}: {}", ran.out_text());
+    }
     sandbox.write("lamp.mtl", "newmtl on\nKd 0.9\nnewmtl off\nKd 0.5\n");
     sandbox.run(&["check", "only.ron"]).ends(0).says(&["W0301", "no light"]);
     let line = ["render", "scene.ron", "-o", "a.png", "--resume", "a.film"];

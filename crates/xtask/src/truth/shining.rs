@@ -73,7 +73,12 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
         // Of a power that of a ball's surface.
         let power = 4.0 * (std::f64::consts::PI * radius).powi(2);
         let seen = 683.0 * strength * Number::of_color(color);
-        let (amount, tint) = match random.below(6) {
+        let kind = random.below(8);
+        // What a ball shows of itself. Only balls and flat shapes have an intensity.
+        let disc = std::f64::consts::PI * radius * radius;
+        let (amount, tint) = match random.below(8) {
+            3 if matches!(kind, 0 | 1 | 3) => (Amount::Intensity(color.map(|c| c * strength * disc)), [1.0; 3]),
+            4 if matches!(kind, 0 | 1 | 3) => (Amount::LuminousIntensity(seen * disc), color),
             0 => (Amount::Power(color.map(|c| c * strength * power)), [1.0; 3]),
             1 => (Amount::LuminousPower(seen * power), color),
             2 => (Amount::Luminance(seen), color),
@@ -85,7 +90,7 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
             two_sided,
             group: lamp.group.clone(),
         }));
-        match random.below(8) {
+        match kind {
             5 | 6 => super::curved::shape(world, center, radius, material, random),
             7 => super::curved::ball(world, center, radius, material, random),
             0 | 1 => rectangle(world, center, radius, material, random),

@@ -188,7 +188,7 @@ fn other_files_of_a_mesh_count() {
     let (folder, cache) = (tempfile::tempdir().expect("a folder"), tempfile::tempdir().expect("a folder"));
     let at = |name: &str| folder.path().join(name);
     fs::write(at("f.obj"), obj()).expect("a file");
-    fs::write(at("m.mtl"), "newmtl red\nKd 1 0 0\nKe 1 1 1\nnewmtl blue\nKd 0 0 1\nmap_Kd p.png\n").expect("a file");
+    fs::write(at("m.mtl"), "newmtl red\nKd 1 0 0\nPr 0.5\nnewmtl blue\nKd 0 0 1\nmap_Kd p.png\n").expect("a file");
     let store = Folder::new(cache.path());
     let desc = scene(folder.path(), "f.obj");
     thrice(&desc, &store, [&["missing", "missing"], &["taken", "taken"]]);
