@@ -170,7 +170,7 @@ pub fn thing(world: &mut World, center: Point, radius: f64, mut material: Materi
         0 => return super::shining::cuboid(world, center, radius, material, random),
         5 | 6 => return super::curved::shape(world, center, radius, material, random),
         7 => return super::curved::ball(world, center, radius, material, random),
-        2 => return super::solids::shape(world, center, radius, material, random),
+        2 | 3 => return super::solids::shape(world, center, radius, material, random),
         // Glass without an inside is no glass.
         1 if !material.transmits() => {
             return super::shining::rectangle(world, center, radius, material, random);

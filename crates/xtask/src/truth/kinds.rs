@@ -546,7 +546,7 @@ pub fn case(seed: u64, size: u32) -> Case {
     {
         mesh.transform.push(Transform::DropTo { y: 0.0 }.into());
     }
-    if relation == Relation::Path && once_in(random, 2) {
+    if relation == Relation::Path && !once_in(random, 3) {
         draw::hide(&mut world, random);
     }
     draw::light_groups(&mut world, random);
