@@ -170,3 +170,33 @@ fn long_outlines_are_read_in_time() {
         assert!(before.elapsed().as_secs_f64() < 1.0, "{:?}: {}", before.elapsed(), &objects[..60]);
     }
 }
+
+/// What is neither flat nor a ball has no intensity; by name or written there, and told once where it is repeated.
+#[test]
+fn only_some_shapes_shine_by_an_intensity() {
+    let told = |object: &str| {
+        let text = format!(
+            "Scene(materials: {{ \"lamp\": Emissive(luminous_intensity: 90) }}, objects: [{object}, \
+             Sphere(center: (0, 5, 0), radius: 1, material: \"lamp\")])"
+        );
+        match common::load(&text, scene_format::Syntax::Ron) {
+            Ok(_) => Vec::new(),
+            Err(scene_format::LoadError::Invalid { diagnostics, .. }) => {
+                diagnostics.iter().map(|fault| fault.code.as_str().to_owned()).collect()
+            }
+            Err(other) => panic!("{other:?}"),
+        }
+    };
+    for shape in ["Disk(", "Rectangle(", "Polygon(points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], "] {
+        assert_eq!(told(&format!("{shape}material: \"lamp\")")), [""; 0], "{shape}");
+    }
+    for object in [
+        "Box(material: \"lamp\")",
+        "Box(material: Emissive(intensity: 3))",
+        "Cylinder(radius: 1, material: Emissive(luminous_intensity: 3))",
+        "Repeat(count: 5, items: [Box(center: (\"=i\", 0, 0), material: Emissive(intensity: 3))])",
+        "Group(objects: [Torus(radius: 1, tube_radius: 0.1, material: \"lamp\")])",
+    ] {
+        assert_eq!(told(object), ["E0212"], "{object}");
+    }
+}

@@ -95,11 +95,11 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
         };
         let is_wrong = reader.sink.diagnostics.iter().any(|fault| fault.path.starts_with("background"));
         // What the materials of a mesh's own file are, whoever reads that file says.
-        let objects = &scene.objects.0;
-        let dark = dark && !objects.iter().any(|object| shines(object) || object.value.has_materials_of_file());
+        let may_shine = |object: &Spanned<Object>| shines(object) || object.value.has_materials_of_file();
         // Which is of no light.
         let occlusion = matches!(scene.render.integrator, Integrator::AmbientOcclusion { .. });
-        if dark && black && !occlusion && !is_wrong && !reader.materials.any_shines() {
+        let dark = dark && black && !occlusion && !is_wrong && !reader.materials.any_shines();
+        if dark && !scene.objects.0.iter().any(may_shine) {
             let lights = lights.map(|lights| lights.span());
             reader.path.push(Step::Field("lights"));
             reader.report(

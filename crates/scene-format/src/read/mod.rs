@@ -103,6 +103,8 @@ pub(crate) struct Reader<'r> {
     pub(crate) points: Option<usize>,
     /// Whether an item of a list was passed over that somebody meant: its number of items is not what it will be.
     pub(crate) passed_over: bool,
+    /// Whether a surface shines by an intensity, which only some shapes have.
+    pub(crate) intense: bool,
     /// Whether something of the scene was not read since no `Pick` took it or no `Repeat` made it: another frame may.
     chosen: bool,
 }
@@ -179,6 +181,7 @@ impl<'r> Reader<'r> {
             file: None,
             points: None,
             passed_over: false,
+            intense: false,
             chosen: false,
         }
     }

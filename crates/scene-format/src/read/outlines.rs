@@ -37,10 +37,10 @@ impl Reader<'_> {
     /// come too near to the axis that they turn about.
     pub(super) fn shapes(&mut self, scene: &Scene) {
         let (mut sides, mut told) = (0, HashSet::new());
-        let is_intense =
-            |material: &Material| material.shines().is_some_and(|shines| shines.amount.value.is_intensity());
-        let intense: HashSet<&str> =
-            scene.materials.iter().filter(|of| is_intense(&of.material)).map(|of| &*of.name.value).collect();
+        let intense: HashSet<&str> = match self.intense {
+            true => scene.materials.iter().filter(|of| is_intense(&of.material)).map(|of| &*of.name.value).collect(),
+            false => HashSet::new(),
+        };
         for object in &scene.objects.0 {
             sides += sides_of(&object.value);
             let mut faults = Vec::new();
@@ -52,7 +52,9 @@ impl Reader<'_> {
             } else {
                 sides -= sides_of(&object.value);
             }
-            faults.extend(no_intensity(&object.value, &intense));
+            if self.intense {
+                faults.extend(no_intensity(&object.value, &intense));
+            }
             // What is repeated is wrong many times, and told once.
             for fault in faults {
                 if told.insert((fault.span, fault.code)) {
@@ -110,15 +112,16 @@ fn of_lathe(lathe: &Lathe, span: Span, materials: &[NamedMaterial]) -> Vec<Diagn
     faults
 }
 
+fn is_intense(material: &Material) -> bool {
+    material.shines().is_some_and(|shines| shines.amount.value.is_intensity())
+}
+
 /// Of what is neither flat nor a ball nobody can say how bright it is from afar. `intense`: materials that say it.
 fn no_intensity(object: &Object, intense: &HashSet<&str>) -> Option<Diagnostic> {
     let span = match object.material() {
         MaterialRef::Named { name, span } => intense.contains(&**name).then_some(*span)?,
-        MaterialRef::Inline(material) => {
-            let amount = &material.value.shines()?.amount;
-            amount.value.is_intensity().then_some(amount.span)?
-        }
-        MaterialRef::Default => return None,
+        MaterialRef::Inline(material) if is_intense(&material.value) => material.value.shines()?.amount.span,
+        MaterialRef::Inline(_) | MaterialRef::Default => return None,
     };
     let has = matches!(object, Object::Sphere(_) | Object::Rectangle(_) | Object::Disk(_) | Object::Polygon(_));
     (!has).then(|| {

@@ -68,6 +68,7 @@ impl Words for Emissive {
         let words = EmissiveWords::read(reader, item, at)?;
         // None was written, or what was written could not be read: reported.
         let amount = amount_of!(words)?;
+        reader.intense |= amount.value.is_intensity();
         Some(Emissive { amount, color: words.color, two_sided: words.two_sided, group: words.group })
     }
 
