@@ -114,7 +114,11 @@ impl Outcome {
                 format!("{why}{told}{flip}")
             }
             Verdict::Missing => "there is no expected picture".to_owned(),
-            Verdict::Orphan => "this picture belongs to no scene: remove it, or bring the scene back".to_owned(),
+            Verdict::Orphan => {
+                "this picture belongs to no scene: remove it, bring the scene back, or name its folder in \
+                                `skip` of golden.toml"
+                    .to_owned()
+            }
             Verdict::Wrong { what } => what.lines().next().unwrap_or("there is no picture").to_owned(),
         }
     }

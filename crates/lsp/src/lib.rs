@@ -12,6 +12,7 @@ mod documents;
 mod files;
 mod kin;
 mod positions;
+mod stdio;
 
 use documents::Documents;
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, Response};
@@ -37,12 +38,11 @@ type Error = Box<dyn std::error::Error + Send + Sync>;
 /// # Errors
 /// The connection broke, or the other side does not speak the protocol.
 pub fn serve_stdio() -> Result<(), Error> {
-    let (connection, threads) = Connection::stdio();
+    let (connection, threads) = stdio::connection();
     serve(&connection)?;
     // The writing thread ends when nobody can write any more.
     drop(connection);
-    threads.join()?;
-    Ok(())
+    threads.join()
 }
 
 /// Serves one editor over a connection.

@@ -33,6 +33,14 @@ pub enum WriteError {
         /// The file.
         path: PathBuf,
     },
+    /// There is a file of that name that is something else: it is not replaced.
+    #[error("{} is there already and is no {noun}: it is not replaced; name another file, or remove it", path.display())]
+    Other {
+        /// The file.
+        path: PathBuf,
+        /// What would be written.
+        noun: &'static str,
+    },
     /// The system says no: permission, disk full, a broken disk.
     #[error("cannot write {}: {why}; {}", path.display(), advice(why))]
     Io {

@@ -3,7 +3,7 @@
 
 use super::WriteError;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard};
@@ -52,6 +52,66 @@ pub fn probe(path: &Path) -> Result<(), WriteError> {
         Target::Device => Ok(()),
         Target::File(file) => Unfinished::beside(&file).map(drop).map_err(|why| io_error(path, why)),
     }
+}
+
+/// Fewer bytes are a place that is kept, and nothing that somebody wrote.
+const WORTH: usize = 8;
+
+/// What is made again and again, and replaces what was made before without a question.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Made {
+    /// A picture.
+    Picture,
+    /// A report, or a page or drawing that goes with a picture: JSON, XML, HTML, SVG.
+    Report,
+}
+
+impl Made {
+    fn noun(self) -> &'static str {
+        match self {
+            Made::Picture => "picture",
+            Made::Report => "report of tracer",
+        }
+    }
+
+    /// Whether a file that begins so is of this kind, or as good as empty. No picture is a text, but that some begin as one; the
+    /// reports are known by their first lines.
+    fn is_begun_by(self, head: &[u8]) -> bool {
+        let text = String::from_utf8_lossy(head);
+        let begins = |starts: &[&str]| starts.iter().any(|start| text.starts_with(start));
+        // A character may have been cut at the end.
+        let is_text = !head.contains(&0) && text.chars().rev().skip(1).all(|c| c != char::REPLACEMENT_CHARACTER);
+        let known = match self {
+            Made::Picture => !is_text || begins(&["#?RADIANCE", "#?RGBE", "PF", "Pf", "P3", "P6"]),
+            Made::Report => {
+                let json = text.trim_start().starts_with('{');
+                let ours = ["\"report_version\"", "\"golden_version\""].iter().any(|word| text.contains(word));
+                json && ours
+                    || text.starts_with("<?xml") && text.contains("name=\"tracer golden\"")
+                    || text.starts_with("<!doctype html>") && text.contains("<h1>Golden pictures")
+                    || text.starts_with("<svg")
+            }
+        };
+        known || head.len() < WORTH
+    }
+}
+
+/// Sees that what is made again and again replaces only what is of the same kind: a scene or a list of somebody's is
+/// not lost by a slip.
+///
+/// # Errors
+/// That something else is there.
+pub fn spare_other(path: &Path, made: Made) -> Result<(), WriteError> {
+    /// So much of a file tells what it is: the page of goldens has its policy first.
+    const HEAD: u64 = 4096;
+    let is_file = fs::metadata(path).is_ok_and(|found| found.is_file());
+    let mut head = Vec::new();
+    // Who cannot read a file cannot say that it is a report.
+    let known = is_file && fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head)).is_ok();
+    if !is_file || known && made.is_begun_by(&head) {
+        return Ok(());
+    }
+    Err(WriteError::Other { path: path.to_owned(), noun: made.noun() })
 }
 
 /// Writes a file, whole or not at all. A link is followed; an older file's permissions are kept; what is no regular

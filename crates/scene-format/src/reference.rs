@@ -90,8 +90,9 @@ clamp(x, low, high)
   (linear between rising times, the first or last value outside), `length normalize dot cross`, `hsv(hue, saturation, \
 value)`,
   `blackbody(kelvin)` (the colour of what glows at 500 to 40000 K, of luminance 1),
-  `random(n, ..)` (0 to 1, the same for the same one to four numbers), `len(list)`, `if(condition, a, b)`; `pi`; \
-`frame` and `time` of the [animation](#animation).
+  `random(n, ..)` (0 to 1, the same for the same one to four numbers), `len(list)`, `if(condition, a, b)`, \
+where what is not chosen may have no value (`if(i > 0, 1/i, 0)`; so behind `&&` and `||`); `pi`;
+  `frame` and `time` of the [animation](#animation).
 
 `Repeat`, an item of any list, puts its items into the list so many times; `i`, or what `index` says, counts from 0:
 

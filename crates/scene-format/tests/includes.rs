@@ -40,6 +40,37 @@ fn room(name: &str, room: &str) -> Result<Loaded, LoadError> {
     load(&folder.join("room.ron"))
 }
 
+/// Two libraries that build on a third bring its names once; what the later one says of them holds.
+#[test]
+fn a_library_may_be_included_by_several() {
+    let base = r##"Scene(vars: { "w": 0.25, "h": 3 }, textures: { "t": Checkerboard() },
+        materials: { "m": Diffuse(albedo: "=w") })"##;
+    let files = [
+        ("lib.ron", base),
+        ("a.ron", r##"Scene(include: ["lib.ron"], vars: { "h": 4 })"##),
+        ("b.ron", r##"Scene(include: ["lib.ron"], vars: { "w": 0.75 })"##),
+        (
+            "twice.ron",
+            r##"Scene(version: 1, background: 1, include: ["lib.ron", "lib.ron"],
+            objects: [Sphere(center: (0, 0, 0), radius: "=h", material: "m"),
+                Sphere(center: (9, 0, 0), radius: 1, material: Diffuse(albedo: "t"))])"##,
+        ),
+        (
+            "room.ron",
+            r##"Scene(version: 1, background: 1, include: ["a.ron", "b.ron"],
+            objects: [Sphere(center: (0, 0, 0), radius: "=h", material: "m"),
+                Sphere(center: (9, 0, 0), radius: 1, material: Diffuse(albedo: "t"))])"##,
+        ),
+    ];
+    let folder = folder("several", &files);
+    for name in ["twice.ron", "room.ron"] {
+        let loaded = load(&folder.join(name)).expect("right");
+        let Object::Sphere(ball) = &loaded.scene.objects[0].value else { panic!("a ball") };
+        assert_eq!(ball.radius.value, 3.0, "{name}");
+        assert_eq!(albedo(&loaded, 0), Albedo::Color([0.25; 3].into()), "{name}");
+    }
+}
+
 fn codes(result: Result<Loaded, LoadError>) -> Vec<String> {
     match result {
         Err(LoadError::Invalid { diagnostics, .. }) => {

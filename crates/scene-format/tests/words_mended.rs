@@ -184,3 +184,43 @@ fn kinds_told_by_a_field() {
     let found = errors(&scene("{\"type\": \"spotlight\", \"radius\": 1}", Syntax::Json), Syntax::Json);
     assert!(matches!(found.as_slice(), [only] if only.hint.contains("`lights`")), "{found:#?}");
 }
+
+/// What begins with a name and goes on with an operator is an expression, and never two values.
+#[test]
+fn arithmetic_without_quotes() {
+    let ball = |center: &str, radius: &str| format!("Sphere(center: {center}, radius: {radius})");
+    let bodies = [
+        "gap*2",
+        "gap + 1",
+        "gap^2",
+        "gap % 3",
+        "gap/2",
+        "gap-1",
+        "gap - 1",
+        "gap -1",
+        "gap*2 + 1",
+        "gap * (1 + gap)",
+        "-gap",
+        "2*gap",
+        "sqrt(gap)",
+    ];
+    for body in bodies {
+        let quoted = format!("\"={body}\"");
+        let written = ball(&format!("({body}, 0, {body})"), "0.5");
+        check(&[(&written, &ball(&format!("({quoted}, 0, {quoted})"), "0.5"))], Syntax::Ron);
+        let json = |x: &str| format!("{{\"Sphere\": {{\"center\": [{x}, 0, 0], \"radius\": 1}}}}");
+        check(&[(&json(body), &json(&quoted))], Syntax::Json);
+        let toml = |x: &str| format!("{{ Sphere = {{ center = [{x}, 0, 0], radius = 1 }} }}");
+        check(&[(&toml(body), &toml(&quoted))], Syntax::Toml);
+    }
+    let lone = |transform: &str| format!("Sphere(center: (0, 0, 0), radius: 1, transform: {transform})");
+    for written in ["Translate(x: 1, y: 2, z: 3)", "translate(1, 2, 3)", "Translate((1, 2, 3))"] {
+        check(&[(&lone(written), &lone("[Translate((1, 2, 3))]"))], Syntax::Ron);
+    }
+    check(&[(&ball("(0, 0, 0)", "\"2*gap\""), &ball("(0, 0, 0)", "\"=2*gap\""))], Syntax::Ron);
+    // Texts and units stay what they are.
+    for written in [ball("(0, 0, 0)", "my-file.obj"), ball("(0, 0, 0)", "a/b.obj"), ball("(0, 0, 0)", "5 cm")] {
+        let told = errors(&scene(&written, Syntax::Ron), Syntax::Ron);
+        assert!(told.iter().all(|fault| fault.code.as_str() != "E0607"), "{written}: {told:#?}");
+    }
+}

@@ -432,7 +432,7 @@ fn part(text: &str) -> Result<[u32; 2], String> {
 
 fn layer(text: &str) -> Result<Layer, String> {
     let names = || LayerSet::all().names().collect::<Vec<_>>().join(", ");
-    LayerSet::by_name(text.trim()).ok_or_else(|| format!("expected names of layers with commas between: {}", names()))
+    LayerSet::by_name(text.trim()).ok_or_else(|| format!("expected the name of a layer: {}", names()))
 }
 
 fn bits(text: &str) -> Result<Bits, String> {

@@ -68,7 +68,7 @@ impl From<WriteError> for Failure {
         match error {
             _ if error.is_broken_pipe() => Failure::PipeClosed,
             // Who names a file that is there names another one, or says that it may go.
-            WriteError::There { .. } => Failure::Wrong(error.into()),
+            WriteError::There { .. } | WriteError::Other { .. } => Failure::Wrong(error.into()),
             _ => Failure::CouldNot(error.into()),
         }
     }

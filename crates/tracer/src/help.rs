@@ -40,7 +40,7 @@ const DEFAULTS: [(&str, &str); 14] = [
     ("crop", "all of it"),
     ("exposure", "the scene's, 0"),
     ("layers", "the scene's alone"),
-    ("format", "png"),
+    ("format", "by the name of -o; png with none"),
     ("bits", "8"),
     ("samples", "the scene's"),
     ("noise", "none"),

@@ -199,7 +199,8 @@ fn unread(path: &Path, error: &std::io::Error) -> Failure {
     if error.kind() == std::io::ErrorKind::NotFound {
         let tip = match nearby(path, |name| Syntax::from_path(name).is_some()) {
             Some(near) => format!("did you mean {near}?"),
-            None => format!("`tracer new {shown}` starts one"),
+            None if Syntax::from_path(path).is_some() => format!("`tracer new {shown}` starts one"),
+            None => "the names of scenes end in .ron, .toml or .json".to_owned(),
         };
         return Failure::wrong(format!("there is no scene file {shown}; {tip}"));
     }

@@ -20,7 +20,7 @@ use std::ops::Range;
 /// # Errors
 /// What is wrong, with its place in the text; `None` where that was reported by `name`.
 pub(crate) fn evaluate(text: &str, name: &mut dyn FnMut(&str) -> Named) -> Result<Value, Failure> {
-    let mut parser = Parser { text, at: 0, depth: 0, name };
+    let mut parser = Parser { text, at: 0, depth: 0, idle: false, name };
     if text.len() > MAX_BYTES {
         return Err(parser.syntax(0..0, "the expression is too long", format!("at most {MAX_BYTES} bytes")));
     }
@@ -107,6 +107,8 @@ struct Parser<'t, 'n> {
     text: &'t str,
     at: usize,
     depth: usize,
+    /// What is read is not chosen: it must be an expression, of whatever value.
+    idle: bool,
     name: &'n mut dyn FnMut(&str) -> Named,
 }
 
@@ -117,6 +119,24 @@ impl Parser<'_, '_> {
 
     fn syntax(&self, at: Range<usize>, message: &str, expected: impl Into<String>) -> Failure {
         self.fault(codes::EXPRESSION_SYNTAX, at, message, expected)
+    }
+
+    /// A fault of values, which what is not chosen may have: some value, then.
+    fn unless_idle(&self, fault: Failure) -> Result<Value, Failure> {
+        if self.idle { Ok(Value::Number(0.0)) } else { Err(fault) }
+    }
+
+    /// Reads what is chosen or not.
+    fn chosen(
+        &mut self,
+        chosen: bool,
+        read: impl FnOnce(&mut Self) -> Result<Value, Failure>,
+    ) -> Result<Value, Failure> {
+        let idle = self.idle;
+        self.idle = idle || !chosen;
+        let value = read(self);
+        self.idle = idle;
+        value
     }
 
     fn space(&mut self) {
@@ -170,12 +190,14 @@ impl Parser<'_, '_> {
         let Some(value) = value else {
             let nouns: Vec<&str> = of.iter().map(|value| value.noun()).collect();
             let message = format!("{what} does not go with {}", suggest::join(&nouns, "and"));
-            return Err(self.fault(codes::EXPRESSION_TYPE, at, &message, "numbers, or vectors of one length"));
+            let fault = self.fault(codes::EXPRESSION_TYPE, at, &message, "numbers, or vectors of one length");
+            return self.unless_idle(fault);
         };
         if value.is_finite() {
             return Ok(value);
         }
-        Err(self.fault(codes::EXPRESSION_NOT_FINITE, at, &format!("{what} gives no finite number"), "a finite number"))
+        let message = format!("{what} gives no finite number");
+        self.unless_idle(self.fault(codes::EXPRESSION_NOT_FINITE, at, &message, "a finite number"))
     }
 
     fn or(&mut self) -> Result<Value, Failure> {
@@ -183,8 +205,9 @@ impl Parser<'_, '_> {
             let mut value = parser.and()?;
             while let Some(sign) = parser.take(&["||"]) {
                 let at = parser.at - sign.len()..parser.at;
-                let other = parser.and()?;
-                value = parser.truth(at, sign, &value, &other, |a, b| a || b)?;
+                let known = value == Value::Bool(true);
+                let other = parser.chosen(!known, Self::and)?;
+                value = if known { value } else { parser.truth(at, sign, &value, &other, |a, b| a || b)? };
             }
             Ok(value)
         })
@@ -194,8 +217,9 @@ impl Parser<'_, '_> {
         let mut value = self.comparison()?;
         while let Some(sign) = self.take(&["&&"]) {
             let at = self.at - sign.len()..self.at;
-            let other = self.comparison()?;
-            value = self.truth(at, sign, &value, &other, |a, b| a && b)?;
+            let known = value == Value::Bool(false);
+            let other = self.chosen(!known, Self::comparison)?;
+            value = if known { value } else { self.truth(at, sign, &value, &other, |a, b| a && b)? };
         }
         Ok(value)
     }
@@ -213,7 +237,7 @@ impl Parser<'_, '_> {
         }
         let nouns = suggest::join(&[a.noun(), b.noun()], "and");
         let message = format!("`{sign}` does not go with {nouns}");
-        Err(self.fault(codes::EXPRESSION_TYPE, at, &message, "comparisons on both sides"))
+        self.unless_idle(self.fault(codes::EXPRESSION_TYPE, at, &message, "comparisons on both sides"))
     }
 
     fn comparison(&mut self) -> Result<Value, Failure> {
@@ -313,7 +337,7 @@ impl Parser<'_, '_> {
                     Some(x) => Value::Number(x),
                     None => {
                         let message = format!("{} has no part `{}`", value.noun(), &self.text[at.clone()]);
-                        return Err(self.fault(codes::EXPRESSION_TYPE, at, &message, "x, y or z of a vector"));
+                        self.unless_idle(self.fault(codes::EXPRESSION_TYPE, at, &message, "x, y or z of a vector"))?
                     }
                 };
             } else if self.take(&["["]).is_some() {
@@ -335,7 +359,8 @@ impl Parser<'_, '_> {
             Value::Pair(_) | Value::Triple(_) => value.numbers().len(),
             _ => {
                 let message = format!("{} has no items", value.noun());
-                return Err(self.fault(codes::EXPRESSION_TYPE, at, &message, "a list or a vector before `[`"));
+                let fault = self.fault(codes::EXPRESSION_TYPE, at, &message, "a list or a vector before `[`");
+                return self.unless_idle(fault);
             }
         };
         let found = match index {
@@ -346,10 +371,13 @@ impl Parser<'_, '_> {
             Value::List(list) => list.items().get(k).cloned(),
             _ => value.numbers().get(k).copied().map(Value::Number),
         });
-        found.ok_or_else(|| {
-            let message = "the list has no such item";
-            self.fault(codes::EXPRESSION_INDEX, at, message, format!("a whole number from 0 to {}", count.max(1) - 1))
-        })
+        found.map_or_else(
+            || {
+                let expected = format!("a whole number from 0 to {}", count.max(1) - 1);
+                self.unless_idle(self.fault(codes::EXPRESSION_INDEX, at, "the list has no such item", expected))
+            },
+            Ok,
+        )
     }
 
     fn atom(&mut self) -> Result<Value, Failure> {
@@ -446,10 +474,15 @@ impl Parser<'_, '_> {
 
     /// The call of a function, whose name stands at `at`; the bracket is open.
     fn call(&mut self, at: Range<usize>) -> Result<Value, Failure> {
-        let mut arguments = Vec::new();
+        let (mut arguments, chooses) = (Vec::new(), self.text[at.clone()] == *"if");
         if self.take(&[")"]).is_none() {
             loop {
-                arguments.push(self.or()?);
+                let chosen = match (chooses, arguments.first(), arguments.len()) {
+                    (true, Some(Value::Bool(condition)), 1) => *condition,
+                    (true, Some(Value::Bool(condition)), 2) => !condition,
+                    _ => true,
+                };
+                arguments.push(self.chosen(chosen, Self::or)?);
                 if self.take(&[","]).is_none() {
                     break;
                 }
@@ -477,13 +510,13 @@ impl Parser<'_, '_> {
             Some(value) if value.is_finite() => Ok(value),
             Some(_) => {
                 let message = format!("`{name}` gives no finite number");
-                Err(self.fault(codes::EXPRESSION_NOT_FINITE, at, &message, "a finite number"))
+                self.unless_idle(self.fault(codes::EXPRESSION_NOT_FINITE, at, &message, "a finite number"))
             }
             None => {
                 let why = if name == "keyframes" { why_no_keyframes(&arguments) } else { None };
                 let message =
                     format!("`{name}` cannot be called so{}", why.map_or(String::new(), |why| format!(": {why}")));
-                Err(self.fault(codes::EXPRESSION_TYPE, at, &message, (*call).to_owned()))
+                self.unless_idle(self.fault(codes::EXPRESSION_TYPE, at, &message, (*call).to_owned()))
             }
         }
     }
@@ -504,6 +537,9 @@ impl Parser<'_, '_> {
             items.iter().map(|item| if let Value::Number(x) = item { Some(*x) } else { None }).collect();
         let vector = numbers.and_then(|numbers| Value::of(&numbers));
         let at = start..self.at;
-        vector.ok_or_else(|| self.fault(codes::EXPRESSION_TYPE, at, "this is no vector", "two or three numbers"))
+        vector.map_or_else(
+            || self.unless_idle(self.fault(codes::EXPRESSION_TYPE, at, "this is no vector", "two or three numbers")),
+            Ok,
+        )
     }
 }

@@ -100,6 +100,22 @@ fn faults_say_where() {
     assert_eq!(fault("1 €"), (codes::EXPRESSION_SYNTAX, 2..5));
 }
 
+#[test]
+fn what_is_not_chosen_may_have_no_value() {
+    assert_eq!(number("if(1 > 2, 1/0, 0.5)"), 0.5);
+    assert_eq!(number("if(true, 3, log(0) + (1, 2)[5] + (1, 2).z + (1, 2)*(1, 2, 3))"), 3.0);
+    assert_eq!(number("if(false, if(true, 1/0, 2), if(2 > 1, 4, 1/0))"), 4.0);
+    assert_eq!(value("true || 1/0 > 1"), Value::Bool(true));
+    assert_eq!(value("false && 1/0 > 1"), Value::Bool(false));
+    let fault = |text: &str| evaluate(text, &mut |_| Named::Unknown(Vec::new())).expect_err(text).expect("told").code;
+    // It must be an expression of names that are there; and what is chosen must have a value.
+    assert_eq!(fault("if(true, 1, 2 +)"), codes::EXPRESSION_SYNTAX);
+    assert_eq!(fault("if(true, 1, nobody)"), codes::EXPRESSION_NAME);
+    assert_eq!(fault("if(true, 1/0, 2)"), codes::EXPRESSION_NOT_FINITE);
+    assert_eq!(fault("if(true, 1, 2) + 1/0"), codes::EXPRESSION_NOT_FINITE);
+    assert_eq!(fault("true && 1/0 > 1"), codes::EXPRESSION_NOT_FINITE);
+}
+
 /// Nothing that is written ends the program, nests too deep or takes long.
 #[test]
 fn hostile_texts_are_refused() {

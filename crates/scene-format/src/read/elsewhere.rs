@@ -359,6 +359,22 @@ impl Reader<'_> {
     }
 }
 
+/// One transform without its list, as it is written here within one: `[Translate((1, 0, 0))]`; `None` where it is
+/// written in our way.
+pub(super) fn lone_transform(item: Item<'_, '_>) -> Option<String> {
+    let (name, body) = kind_and_body(item)?;
+    let lower = name.to_ascii_lowercase();
+    let three = numbers(body).filter(|_| matches!(&*lower, "translate" | "move" | "translation"));
+    let meant = match three.as_deref() {
+        Some(&[x, y, z]) => translation([x, y, z]),
+        _ => meant_transform(&name, body).filter(|meant| meant.certain)?,
+    };
+    Some(match item.syntax() {
+        Syntax::Ron => format!("[{}({})]", meant.kind, meant.ron),
+        syntax => syntax.of_toml(format!("[{{ {} = {} }}]", meant.kind, meant.toml)).into_owned(),
+    })
+}
+
 /// The name of a kind and what stands in its brackets.
 fn kind_and_body<'t, 's>(item: Item<'t, 's>) -> Option<(String, Item<'t, 's>)> {
     match item.kind() {

@@ -1,5 +1,6 @@
 //! What was meant by a word that is not there: the words of other programs, and the right place.
 
+use super::of_fields;
 use super::of_kinds::{self, LIGHTS, TRANSFORMS};
 use super::pattern_fields::of_pattern;
 use super::shape_fields::of_shape;
@@ -113,7 +114,11 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Matrix", &["transform", "concattransform", "concat_transform"]),
         ("Align", &["orient", "aligned", "align_to", "alignto", "rotate_to", "rotateto", "point_at", "reorient"]),
         ("FitTo", &["fit", "resize", "normalize", "normalise", "unitize", "scale_to", "scaleto", "dimensions"]),
-        ("DropTo", &["drop", "ground", "place_on", "rest_on"]),
+        ("DropTo", &["drop", "ground", "place_on", "rest_on", "onground", "on_ground"]),
+        ("Grid", &["array", "linear", "lattice", "rows"]),
+        ("Ring", &["circle", "radial", "polar", "circular"]),
+        ("Scatter", &["random", "poisson", "poissondisk"]),
+        ("Emissive", &["arealightsource", "area_light_source"]),
         ("Silver", &["ag"]),
         ("Gold", &["au"]),
         ("Copper", &["cu"]),
@@ -129,11 +134,11 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Scale", &["scaling", "size", "stretch", "enlarge", "zoom"]),
         ("Panorama", &["spherical", "environment", "equirectangular", "latlong", "panoramic", "omnidirectional"]),
         ("Perspective", &["thinlens", "pinhole", "persp"]),
-        ("Orthographic", &["ortho", "parallel", "telecentric"]),
+        ("Orthographic", &["ortho", "parallel", "telecentric", "isometric", "axonometric"]),
         ("Group", &["node", "collection", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
-        ("Noise", &["turbulence", "fractalnoise", "perlinnoise", "spotted", "bumps"]),
+        ("Noise", &["turbulence", "fractalnoise", "perlinnoise", "spotted", "bumps", "simplex", "whitenoise"]),
         ("Lines", &["grid", "stripes", "gridtexture", "tiles", "stripe"]),
         ("Dots", &["polkadots", "spots", "polka", "dot"]),
         ("Gradient", &["ramp", "blend", "gradienttexture"]),
@@ -204,7 +209,10 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
 pub(super) type Hints = &'static [(&'static [&'static str], &'static str)];
 
 const OBJECTS: Hints = &[
-    (&["pyramid"], "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`"),
+    (
+        &["pyramid", "tetrahedron", "wedge", "prism", "loft"],
+        "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`",
+    ),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
         &["bezier", "nurbs", "text"],
@@ -212,7 +220,7 @@ const OBJECTS: Hints = &[
          `Mesh`",
     ),
     (
-        &["instance", "objectinstance", "copy", "array", "clone", "for", "loop"],
+        &["instance", "instances", "objectinstance", "copy", "array", "clone", "for", "loop"],
         "copies of an object are its `placements`: a list, a file, Grid(..), Ring(..) or Scatter(..); `Repeat(count: \
          .., items: [..])` makes \
          objects by a rule",
@@ -223,7 +231,7 @@ const OBJECTS: Hints = &[
          Difference(objects: [..]), the first without the others",
     ),
     (
-        &["import", "link", "reference", "scene"],
+        &["import", "link", "reference", "scene", "use"],
         "another scene comes by `Include(file: ..)`, geometry of other files by `Mesh(file: ..)`",
     ),
     (
@@ -231,6 +239,10 @@ const OBJECTS: Hints = &[
         "a lamp is an object that shines: `Rectangle(size: 1, material: Emissive(radiance: 5))`",
     ),
     (&["spherelight", "pointlight", "light", "sun", "spotlight"], "lights stand in `lights`, beside `objects`"),
+    (&["bevel", "roundedbox", "roundbox", "chamfer"], "edges are rounded by `Box(size: 1, rounding: 0.1)`"),
+    (&["empty", "null"], "what only holds others is a `Group(objects: [..])`; a point needs no object"),
+    (&["line", "lines", "segment", "polyline"], "a line has a thickness: `Tube(points: [..], radius: 0.02)`"),
+    (&["point"], "a point is a small `Sphere`; a light without size is a small `SphereLight`"),
     (&["camera"], "the camera is the scene's `camera`, beside `objects`"),
     (
         &["volume", "fog", "medium", "smoke", "hair", "particles", "points", "metaballs", "sdf"],
@@ -256,16 +268,19 @@ const MATERIALS: Hints = &[
             "roughplastic",
             "coat",
             "coateddiffuse",
+            "clearcoat",
+            "meshstandardmaterial",
         ],
         "a coloured surface with a gloss is BlinnPhong(albedo: .., exponent: 1000, specular: 0.1, energy_conserving: \
          true)",
     ),
     (&["frostedglass", "frosted", "roughglass", "roughdielectric"], "glass is smooth here: Transparent(ior: 1.5)"),
     (
-        &["mix", "blend", "blendbsdf", "layered"],
+        &["mix", "blend", "blendbsdf", "layered", "mixshader", "mix_shader"],
         "materials cannot be mixed, but colours can: Diffuse(albedo: Mix(a: .., b: ..)); `BlinnPhong` mixes a matt and \
          a glossy share",
     ),
+    (&["pigment", "color", "rgb"], "a colour is the `albedo` of a material: Diffuse(albedo: (0.8, 0.2, 0.1))"),
     (&["null", "none", "invisible"], "leave the object out"),
     (&["thindielectric", "thintransparent"], "a pane is a thin `Box` of Transparent(ior: 1.5)"),
     (&["normalmap", "bumpmap", "bump", "displacement"], "surfaces have no bumps: they need to be in the mesh"),
@@ -286,6 +301,8 @@ const TEXTURES: Hints = &[
         "textures are reckoned with by Mix(a: .., b: .., weight: ..), Multiply(a: .., b: ..) and ColorRamp(input: .., \
          stops: [..])",
     ),
+    (&["constant", "constanttexture", "solidcolor"], "one colour stands by itself: (0.8, 0.2, 0.1)"),
+    (&["volume"], "textures in space are Noise(..), Marble(..) and Wood(..)"),
     (&["hsv", "hsl", "hsla", "hsva"], "colours are red, green and blue: (0.8, 0.2, 0.1) or \"#d03a2b\""),
 ];
 
@@ -372,7 +389,10 @@ pub(crate) fn command_line(name: &str, def: &'static StructDef) -> Option<&'stat
 // Long: a table.
 pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<&'static str> {
     let lower = name.to_ascii_lowercase();
-    let found = of_pattern(&lower, def).or_else(|| of_shape(&lower, def, syntax)).or_else(|| command_line(&lower, def));
+    let found = of_pattern(&lower, def)
+        .or_else(|| of_shape(&lower, def, syntax))
+        .or_else(|| command_line(&lower, def))
+        .or_else(|| of_fields::elsewhere(&lower, def));
     if found.is_some() {
         return found;
     }
@@ -383,7 +403,8 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         "sky" | "environment" | "envmap" | "world" | "hdri" | "ambient" | "ambient_light" | "sun"
             if has("background") =>
         {
-            "light from all around is `background`, one colour; a sun is a large `SphereLight` far away"
+            "light from all around is `background`: a colour, or Environment(file: \"sky.hdr\"); a sun is a large \
+             `SphereLight` far away"
         }
         "emission" | "emissive" | "emit" | "glow" | "light" | "radiance" | "emissive_color"
             if surface && !has("radiance") =>

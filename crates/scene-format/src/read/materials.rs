@@ -216,7 +216,7 @@ impl Reader<'_> {
             let known = self.materials.find(&name);
             let first = known.map(|first| self.materials.name(first).span);
             // What a file includes gives way to its own names.
-            let replaces = first.is_some_and(|first| self.is_included(first) && first.source != key.span().source);
+            let replaces = first.is_some_and(|first| self.gives_way(first, key.span()));
             if let Some(first) = first.filter(|_| !replaces) {
                 self.report(
                     Diagnostic::error(

@@ -13,6 +13,7 @@ mod hints;
 mod include;
 mod marks;
 mod materials;
+mod of_fields;
 mod of_kinds;
 mod outlines;
 mod part;
@@ -222,6 +223,12 @@ impl<'r> Reader<'r> {
     /// Whether a place is in an included file.
     fn is_included(&self, span: Span) -> bool {
         span != Span::NONE && span.source >= self.first_included
+    }
+
+    /// Whether a name given at one place gives way to the same name at another: that of an included file does, also to
+    /// itself where the file is included again.
+    fn gives_way(&self, first: Span, again: Span) -> bool {
+        self.is_included(first) && (first.source != again.source || first == again)
     }
 
     /// Finds the fields of a struct; reports unknown, double and missing ones.
@@ -516,8 +523,21 @@ impl<'r> Reader<'r> {
     fn not_a_list<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
         let lexeme = item.lexeme();
         let header = item.syntax() == Syntax::Toml && item.kind() == Kind::Map && lexeme.starts_with('[');
+        // `[objects.Sphere]` is a table in one: each item of a list begins with its own `[[objects]]`.
+        let dotted = lexeme.trim_start_matches('[').trim_end_matches(']').split_once('.').filter(|_| header);
+        if let Some((list, kind)) = dotted {
+            let mended = format!("[[{list}]]\n[{list}.{kind}]");
+            let message = format!("{} cannot be {}", plain(at.noun), describe(item));
+            let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected("a list: [[list]]");
+            fault.hint = format!("each begins with two lines: [[{list}]] and [{list}.{kind}]");
+            if !lexeme.starts_with("[[") {
+                fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            }
+            self.report(fault);
+            return None;
+        }
         let edit = match item.kind() {
-            // `[[objects.Sphere]]` is a list within a table, and cannot become one by more brackets.
+            _ if at.name == "transform" && elsewhere::lone_transform(item).is_some() => elsewhere::lone_transform(item),
             _ if header => (!lexeme.starts_with("[[")).then(|| format!("[{lexeme}]")),
             Kind::Struct | Kind::Map | Kind::Tuple if item.name().is_some() || item.kind() == Kind::Map => {
                 Some(format!("[{lexeme}]"))

@@ -4,7 +4,7 @@
 use super::Reader;
 use crate::codes;
 use crate::desc::{Curve, Lathe, Material, MaterialRef, NamedMaterial, Object, Scene};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::path::shown;
 use std::collections::HashSet;
 use std::f64::consts::TAU;
@@ -41,7 +41,7 @@ impl Reader<'_> {
             true => scene.materials.iter().filter(|of| is_intense(&of.material)).map(|of| &*of.name.value).collect(),
             false => HashSet::new(),
         };
-        for object in &scene.objects.0 {
+        for (number, object) in scene.objects.0.iter().enumerate() {
             sides += sides_of(&object.value);
             let mut faults = Vec::new();
             if sides <= MOST_SIDES {
@@ -56,12 +56,23 @@ impl Reader<'_> {
                 faults.extend(no_intensity(&object.value, &intense));
             }
             // What is repeated is wrong many times, and told once.
-            for fault in faults {
+            for mut fault in faults {
                 if told.insert((fault.span, fault.code)) {
+                    fault.message += &which_of_many(&scene.objects.0, number);
                     self.report(fault);
                 }
             }
         }
+    }
+}
+
+/// ` (number 2 of the 9 that are made here, from 0)`, of an object that a repetition makes with others at the same place.
+fn which_of_many(objects: &[Spanned<Object>], number: usize) -> String {
+    let span = objects[number].span;
+    let made_here = |objects: &[Spanned<Object>]| objects.iter().filter(|object| object.span == span).count();
+    match (made_here(&objects[..number]), made_here(objects)) {
+        (_, 0 | 1) => String::new(),
+        (before, all) => format!(" (number {before} of the {all} that are made here, from 0)"),
     }
 }
 

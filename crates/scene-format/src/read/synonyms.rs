@@ -25,7 +25,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("up", &["sky", "up_vector", "vup", "world_up", "up_direction", "upvec"]),
     ("matrix", &["to_world", "matrix_world", "transform", "world_matrix", "camera_to_world", "c2w", "pose"]),
     ("cameras", &["views", "viewpoints", "camera_list"]),
-    ("animation", &["anim", "animate", "timeline", "film", "motion"]),
+    ("animation", &["anim", "animate", "timeline", "motion"]),
     ("frames", &["frame_count", "num_frames", "frame_end", "final_frame", "count", "length", "end"]),
     ("fps", &["frame_rate", "framerate", "frames_per_second", "rate"]),
     ("frame", &["frame_current", "current_frame", "frame_number"]),

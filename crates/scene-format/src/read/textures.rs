@@ -226,7 +226,7 @@ impl Reader<'_> {
         }
         let Some(first) = self.named.find(&name).map(|k| self.named.list[k].name.span) else { return true };
         // What a file includes gives way to its own names.
-        if self.is_included(first) && first.source != key.span().source {
+        if self.gives_way(first, key.span()) {
             return true;
         }
         let message = format!("two textures have the name \"{}\"", shortened(&name));

@@ -4,7 +4,7 @@ use super::{Reader, elsewhere, plain, shortened};
 use crate::codes;
 use crate::desc::PatternWords;
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
-use crate::expression::Value;
+use crate::expression::{self, Named, Value};
 use crate::files::joined;
 use crate::form::Form;
 use crate::schema::{FieldDef, Type};
@@ -159,13 +159,23 @@ impl Reader<'_> {
                 edit = Some(none(item.syntax()).to_owned());
             }
             // A name of `vars` without its quotes, or without its sign.
-            if self.knows_var(trimmed) {
-                edit = Some(format!("\"={trimmed}\""));
+            if self.knows_var(trimmed) || item.kind() == Kind::Text && self.is_reckoned(trimmed) {
+                edit = Some(format!("\"={}\"", trimmed.trim_start_matches(['=', ' '])));
             }
         } else if let Kind::Tuple | Kind::List = item.kind() {
             edit = elsewhere::number_elsewhere(item, at);
         }
         self.wrong_kind(item, at.noun, &expected_for(at, item), edit)
+    }
+
+    /// Whether a text without `=` before it is an expression of names that are known: `2*r`.
+    fn is_reckoned(&self, text: &str) -> bool {
+        let body = text.trim_start_matches(['=', ' ']);
+        let value = expression::evaluate(body, &mut |name| match self.knows_var(name) {
+            true => Named::Value(Value::Number(1.0)),
+            false => Named::Unknown(Vec::new()),
+        });
+        body.bytes().any(|byte| b"+-*/^%(".contains(&byte)) && matches!(value, Ok(Value::Number(_)))
     }
 
     /// Reports a number that is not finite or not in the field's range; `channel` says which of several it is.

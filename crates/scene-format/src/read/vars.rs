@@ -164,7 +164,7 @@ impl Reader<'_> {
                 continue;
             }
             // What a file includes gives way to its own names.
-            let gives_way = |first: Span| self.is_included(first) && first.source != key.span().source;
+            let gives_way = |first: Span| self.gives_way(first, key.span());
             let first = self.vars.find(&name).filter(|&first| first >= start).map(|first| self.vars.list[first].span);
             if let Some(first) = first.filter(|&first| !gives_way(first)) {
                 self.path.push(Step::Key(name.clone().into_owned()));

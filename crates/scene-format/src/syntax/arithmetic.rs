@@ -17,7 +17,8 @@ pub(super) fn ahead(text: &str, start: usize) -> Option<usize> {
     let word = line.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(line.len());
     let chooses = line.contains('?');
     let known = expression::is_known(&line[..word]) && !matches!(&line[..word], "true" | "false");
-    let named = known || chooses && expression::is_name(&line[..word]);
+    let led = !known && reckons(&line[word..]) && expression::is_name(&line[..word]);
+    let named = known || led || chooses && expression::is_name(&line[..word]);
     if !named && !bytes.first().is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.')) {
         return None;
     }
@@ -36,7 +37,9 @@ pub(super) fn ahead(text: &str, start: usize) -> Option<usize> {
                 break;
             }
             // `0 -1` is rather two numbers without their comma.
-            b'+' | b'-' if at > 0 && bytes[at - 1] == b' ' && bytes.get(at + 1).is_none_or(|next| *next != b' ') => {
+            b'+' | b'-'
+                if !led && at > 0 && bytes[at - 1] == b' ' && bytes.get(at + 1).is_none_or(|next| *next != b' ') =>
+            {
                 return None;
             }
             b'+' | b'-' | b'*' | b'/' | b'^' | b'%' | b'.' | b'_' | b' ' => {}
@@ -49,8 +52,40 @@ pub(super) fn ahead(text: &str, start: usize) -> Option<usize> {
     if chooses {
         return (depth == 0 && choice(body).is_some()).then_some(body.len());
     }
-    let is_plain = number_kind(body).is_some() || !known && !body[1..].bytes().any(|byte| OPERATORS.contains(&byte));
+    // `a/b` and `my-file` are rather texts, unless they are made of names that the scene gives.
+    let sure = |body: &str| body.contains(['*', '^', '%']) || body.contains(" + ") || body.contains(" - ");
+    if led && !sure(body) && !names_are_given(text, body) {
+        return None;
+    }
+    let negated = body.strip_prefix(['-', '+']).is_some_and(|rest| names_are_given(text, rest));
+    let is_plain =
+        number_kind(body).is_some() || !known && !negated && !body[1..].bytes().any(|byte| OPERATORS.contains(&byte));
     (!is_plain && depth == 0 && is_expression(&ours(body))).then_some(body.len())
+}
+
+/// Whether an operator follows on a name: ` * 2`.
+pub(super) fn reckons(after: &str) -> bool {
+    let after = after.trim_start_matches(' ');
+    let comment = after.starts_with("//") || after.starts_with("/*");
+    after.bytes().next().is_some_and(|byte| OPERATORS.contains(&byte)) && !comment
+}
+
+/// Whether an expression has names, and all of them are names that the scene gives to something.
+fn names_are_given(text: &str, body: &str) -> bool {
+    let (mut given, mut any) = (true, false);
+    let value = expression::evaluate(body, &mut |name| {
+        given = given && is_given(text, name);
+        any = true;
+        Named::Value(Value::Number(1.0))
+    });
+    given && any && !matches!(value, Err(Some(fault)) if fault.code != codes::EXPRESSION_NOT_FINITE)
+}
+
+/// Whether a scene seems to give a name to something: a var, or the index of a `Repeat`.
+fn is_given(text: &str, name: &str) -> bool {
+    text.contains(&format!("\"{name}\""))
+        || text.contains(&format!("{name} ="))
+        || name == "i" && text.contains("Repeat")
 }
 
 /// Arithmetic with the operators of other languages, in ours: `2**3`, `a < 1 ? 2 : 3`.
@@ -131,7 +166,7 @@ pub(super) fn fault(text: &str, body: &str, span: Span) -> Diagnostic {
         .hint(format!("write {mended}"));
     let mut known = true;
     let value = expression::evaluate(body, &mut |name| {
-        known &= text.contains(&format!("\"{name}\"")) || text.contains(&format!("{name} ="));
+        known = known && is_given(text, name);
         Named::Value(Value::Number(1.0))
     });
     // What a name stands for may make it finite.

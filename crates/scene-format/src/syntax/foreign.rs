@@ -74,7 +74,11 @@ fn is_toml(line: &str) -> bool {
     };
     let header = line.strip_prefix('[').and_then(|line| line.strip_suffix(']'));
     let header = header.map(|line| line.strip_prefix('[').and_then(|line| line.strip_suffix(']')).unwrap_or(line));
-    header.is_some_and(word) || line.split_once('=').is_some_and(|(key, value)| word(key) && !value.starts_with('='))
+    header.is_some_and(word)
+        || line.split_once('=').is_some_and(|(key, value)| {
+            let key = key.trim_end();
+            word(key) && !key.contains(' ') && !value.starts_with('=')
+        })
 }
 
 /// `Scene(`, `(` or `#![enable(..)]`.
@@ -83,6 +87,10 @@ fn is_ron(line: &str) -> bool {
     line.strip_prefix("Scene").is_some_and(|rest| rest.trim_start().starts_with('(') || rest.trim().is_empty())
         || line.starts_with('(')
         || line.starts_with("#![")
+}
+
+fn is_of_name(c: char) -> bool {
+    c.is_alphabetic() || matches!(c, '_' | '$' | '{' | '[')
 }
 
 /// The languages that scenes of other programs are written in.
@@ -122,6 +130,9 @@ fn of_others(first: &str, rest: &str) -> Option<&'static str> {
     }
     if first.starts_with("import ") || first.starts_with("from ") && first.contains(" import ") {
         return Some("Python");
+    }
+    if ["const", "let", "var", "function", "export"].contains(&word) && after.starts_with(is_of_name) {
+        return Some("JavaScript");
     }
     let next = rest.lines().find(|line| !line.trim().is_empty()).unwrap_or("");
     let key = after.strip_prefix(':').filter(|value| value.is_empty() || value.starts_with(' '));

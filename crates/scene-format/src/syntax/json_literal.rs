@@ -219,7 +219,11 @@ impl<'p> Parser<'p> {
                 self.at += length;
                 return self.builder.leaf(Kind::Word, start, self.at);
             }
-            _ if expression::is_known(word) && self.arithmetic(start) => return,
+            _ if (expression::is_known(word) || arithmetic::reckons(&self.text[start + length..]))
+                && self.arithmetic(start) =>
+            {
+                return;
+            }
             _ => {}
         }
         if self.angle_brackets(start) || self.kind_with_brackets(start) {

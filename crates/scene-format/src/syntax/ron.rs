@@ -2,7 +2,7 @@
 //! bracket.
 
 use super::brackets::{self, Fate, Open};
-use super::{MAX_DEPTH, Sink};
+use super::{MAX_DEPTH, Sink, arithmetic};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::expression;
@@ -164,7 +164,8 @@ impl<'p> Parser<'p> {
                     return self.unexpected();
                 }
                 let word = &self.text[start..start + length];
-                if expression::is_known(word) && self.arithmetic(start) {
+                let reckons = || arithmetic::reckons(&self.text[start + length..]);
+                if (expression::is_known(word) || reckons()) && self.arithmetic(start) {
                     return;
                 }
                 self.at += length;

@@ -289,8 +289,9 @@ impl Parser<'_> {
         if !word.starts_with(|c: char| c.is_ascii_lowercase()) || matches!(word, "true" | "false" | "inf" | "nan") {
             return None;
         }
-        // `cos(30)` is the first number of a vector.
-        if after.starts_with('(') && expression::is_known(word) && arithmetic::ahead(self.text, self.at).is_some() {
+        // `cos(30)` and `r - 1` are the first numbers of a vector.
+        let reckoned = after.starts_with('(') && expression::is_known(word) || arithmetic::reckons(after);
+        if reckoned && arithmetic::ahead(self.text, self.at).is_some() {
             return None;
         }
         let value = after.trim_start_matches([' ', '\t']);

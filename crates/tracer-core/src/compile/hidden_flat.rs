@@ -8,8 +8,10 @@ use scene_format::desc::{Material, MaterialRef};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// With more faces than this none are compared: each is with each.
-const MOST_FACES: usize = 2048;
+/// With more faces than this none are looked at.
+const MOST_FACES: usize = 1 << 16;
+/// With more than this in places of their own none are compared: each is with each.
+const MOST_PLACES: usize = 2048;
 /// Planes this much apart, relative to the size of the faces, are one.
 const APART: f64 = 1e-7;
 
@@ -35,6 +37,14 @@ impl Face {
         let corners = corners.map(|(x, y)| center + x * right + y * up);
         let apart = APART * (right.length() + up.length() + center.length());
         Some(Face { object, corners, to_square: frame.inverse(), apart, rank })
+    }
+
+    /// Where it is, the same for all that are in the same place.
+    fn place(&self) -> [[u64; 3]; 4] {
+        // Zero has a sign, which is no place.
+        let mut place = self.corners.map(|corner| corner.to_array().map(|x| (x + 0.0).to_bits()));
+        place.sort_unstable();
+        place
     }
 
     /// Whether it hides all of another face.
@@ -92,8 +102,21 @@ pub fn warn(desc: &SceneDesc, placed: &Placed, diagnostics: &mut Diagnostics) {
     }
     let mut by: BTreeMap<usize, usize> = BTreeMap::new();
     let mut seen: BTreeSet<usize> = BTreeSet::new();
+    // Of those in the same place one hides the others.
+    let mut places: BTreeMap<[[u64; 3]; 4], &Face> = BTreeMap::new();
     for face in &faces {
-        match faces.iter().find(|other| other.object != face.object && other.hides(face)) {
+        let first = places.entry(face.place()).or_insert(face);
+        if face.rank < first.rank {
+            *first = face;
+        }
+    }
+    if places.len() > MOST_PLACES {
+        return;
+    }
+    let other_place = |face: &Face| places.values().find(|other| other.object != face.object && other.hides(face));
+    for face in &faces {
+        let first = places.get(&face.place()).filter(|first| first.object != face.object);
+        match first.or_else(|| other_place(face)) {
             Some(other) => {
                 by.entry(face.object).or_insert(other.object);
             }

@@ -51,6 +51,14 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
                 .hint(format!("write \"#{hex}\" for the colour, or 256 for 255 where the amount is meant")),
         );
     }
+    if let Some((span, kelvin)) = lights(desc).find_map(|(amount, color)| Some((amount.span, kelvin(color)?))) {
+        let message = format!("the light's `color` of {kelvin} looks like a temperature in kelvin");
+        diagnostics.push(
+            Diagnostic::warning(codes::OTHER_SCALE, span, message)
+                .expected("a colour: how bright it is does not count")
+                .hint(format!("write `color: \"=blackbody({kelvin})\"`")),
+        );
+    }
     let exposure = &desc.effects.exposure;
     let brightest = behind.iter().fold(0.0, |most: f64, channel| most.max(*channel)) * libm::exp2(exposure.value);
     if exposure.value > MOST_STOPS && brightest > MOST_WHITE {
@@ -67,21 +75,34 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
 /// The first light whose three numbers are whole, the largest of them 255, and not all the same: light has no upper
 /// end, and nobody who means an amount stops just there.
 fn light_in_bytes(desc: &SceneDesc) -> Option<(Span, Color)> {
-    let of_light = |light: &Light| {
+    lights(desc).filter_map(|(amount, _)| of_amount(amount)).find(|(_, color)| {
+        let whole = color.iter().all(|channel| channel.fract() == 0.0 && *channel >= 0.0);
+        let most = color.iter().fold(0.0, |most: f64, channel| most.max(*channel));
+        whole && most == 255.0 && color.iter().any(|channel| *channel != most)
+    })
+}
+
+/// What lights and materials that shine give, and their colours.
+fn lights(desc: &SceneDesc) -> impl Iterator<Item = (&Spanned<Amount>, Color)> {
+    fn of_light(light: &Light) -> (&Spanned<Amount>, Color) {
         let Light::SphereLight(light) = light;
-        of_amount(&light.amount)
-    };
-    let of_material = |material: &Material| of_amount(&material.shines()?.amount);
+        (&light.amount, light.color)
+    }
+    fn of_material(material: &Material) -> Option<(&Spanned<Amount>, Color)> {
+        material.shines().map(|shines| (&shines.amount, shines.color))
+    }
     let inline = desc.objects.iter().filter_map(|object| match object.value.material() {
         MaterialRef::Inline(material) => of_material(&material.value),
         _ => None,
     });
     let named = desc.materials.iter().filter_map(|named| of_material(&named.material));
-    desc.lights.iter().filter_map(|light| of_light(&light.value)).chain(named).chain(inline).find(|(_, color)| {
-        let whole = color.iter().all(|channel| channel.fract() == 0.0 && *channel >= 0.0);
-        let most = color.iter().fold(0.0, |most: f64, channel| most.max(*channel));
-        whole && most == 255.0 && color.iter().any(|channel| *channel != most)
-    })
+    desc.lights.iter().map(|light| of_light(&light.value)).chain(named).chain(inline)
+}
+
+/// The temperature that a grey colour looks like.
+fn kelvin(color: Color) -> Option<f64> {
+    let [r, g, b] = color;
+    (r == g && g == b && (1000.0..=20000.0).contains(&r)).then_some(r)
 }
 
 fn of_amount(amount: &Spanned<Amount>) -> Option<(Span, Color)> {

@@ -50,8 +50,8 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
                     .hint(format!("one colour of the texture is all that shows: {way}")),
             );
         }
-        let mirrored = placed.maps_of(k).iter().any(|map| map.matrix3.determinant() < 0.0);
-        if material.is_some_and(Material::transmits) && !mirrored && is_inside_out(data) {
+        // The outside of a mirrored mesh stays outside.
+        if material.is_some_and(Material::transmits) && is_inside_out(data) {
             diagnostics.push(
                 Diagnostic::warning(
                     codes::INSIDE_OUT,
@@ -59,7 +59,7 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
                     "this glass is inside out: its faces are wound the other way",
                 )
                 .expected("faces whose corners go round counterclockwise, seen from outside")
-                .hint("flip the normals and export it again, or mirror it: `Scale((-1, 1, 1))` in `transform`"),
+                .hint("flip its faces and export it again: in Blender Mesh > Normals > Recalculate Outside"),
             );
         }
     }

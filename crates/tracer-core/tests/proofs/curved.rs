@@ -109,6 +109,7 @@ pub fn shear() -> Vec<Transform> {
 
 /// Of each material each shape, some of them stretched, turned, mirrored and sheared.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn curved_shapes_as_the_reference_sees_them() {
     let samples = Samples { engine: 256, reference: 256 };
     let glass =

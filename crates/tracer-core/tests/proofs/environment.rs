@@ -119,6 +119,7 @@ fn a_picture_of_one_colour_is_a_background_of_that_colour() {
 
 /// A sun of two texels over all materials, alone and beside a lamp, turned, unseen by the camera, seen through glass.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn skies_as_the_reference_sees_them() {
     let file = sunny();
     let ball = icosphere(2).obj("ball-under-a-sky");

@@ -70,6 +70,7 @@ fn hide(desc: &mut SceneDesc, which: impl Fn(usize, &Object) -> bool) {
 
 /// With all that is on by default: shadows, mirrors and glass know what the camera passes.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn pictures_are_those_of_the_reference() {
     assert_same_picture("hidden", &hidden(), Samples { engine: 4096, reference: 768 });
     // From within glass that the camera does not see, at a ball of glass that it does not see either.
@@ -113,6 +114,7 @@ fn first_hits_pass() {
 
 /// Light paths come to the camera through what it does not see, and not from there.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn light_paths_pass() {
     let ball = |x: f64, y: f64, radius: f64, of| sphere([x, y, 0.0], radius, of);
     let mut desc = on_the_floor(vec![

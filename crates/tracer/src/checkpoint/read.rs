@@ -81,7 +81,7 @@ pub fn look_for(
                 Fault::Unusable(error) => format!(", nor the one before, {previous}: {error}"),
                 _ => ", and there is none before it".to_owned(),
             };
-            Err(Failure::could_not(format!("{why}{also}; delete it to begin anew")))
+            Err(Failure::could_not(format!("{why}{also}; name another file to begin anew")))
         }
     }
 }

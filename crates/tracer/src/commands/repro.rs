@@ -15,7 +15,7 @@ use crate::loading::{
 };
 use crate::progress::Watch;
 use crate::shell::Shell;
-use crate::write::{Encoding, encode, is_one_file, probe, save, sha256};
+use crate::write::{Encoding, Made, encode, is_one_file, probe, save, sha256, spare_other};
 use crate::{interrupt, lanes};
 use scene_format::{MAX_FILE_BYTES, SceneDesc};
 use std::fs;
@@ -113,7 +113,8 @@ fn check_output(args: &ReproArgs, told: &Told) -> Result<(), Failure> {
     if is_one_file(output, &args.picture) || args.scene.as_ref().is_some_and(|scene| is_one_file(output, scene)) {
         return Err(Failure::wrong(format!("-o {shown} would replace what is made again; name another file")));
     }
-    Ok(probe(output)?)
+    probe(output)?;
+    Ok(spare_other(output, Made::Picture)?)
 }
 
 fn spare_files(args: &ReproArgs, files: &[PathBuf]) -> Result<(), Failure> {

@@ -270,7 +270,7 @@ fn a_damaged_file_falls_back_to_the_one_before() {
     ]);
     fs::remove_file(sandbox.path("c.film.previous")).expect("a file");
     let ran = sandbox.run(&render("a.pfm", "12", &["--resume", "c.film"])).ends(1);
-    ran.says(&["there is none before it", "delete it to begin anew"]);
+    ran.says(&["there is none before it", "name another file to begin anew"]);
 }
 
 #[test]

@@ -507,3 +507,37 @@ fn mistyped_commands_and_options_of_others_get_tips_that_help() {
     let ran = sandbox.run(&["render", "scene.ron", "--foo"]).ends(2);
     assert!(!ran.err.contains("as a value"), "{}", ran.err);
 }
+
+/// Pictures replace pictures, reports replace reports; what somebody wrote is replaced by neither.
+#[test]
+fn what_is_something_else_is_not_replaced() {
+    let sandbox = Sandbox::new();
+    let notes = "what I wanted to remember: buy milk\n";
+    sandbox.write("other.ron", notes);
+    sandbox.write("notes.png", notes);
+    let render = |more: &[&str]| {
+        let line = ["render", "scene.ron", "--size", "4x4", "--samples", "1"];
+        sandbox.run(&[&line[..], more].concat())
+    };
+    render(&["-o", "a.png", "--report", "other.ron"]).ends(2).says(&["other.ron", "is no report", "remove it"]);
+    render(&["-o", "notes.png"]).ends(2).says(&["notes.png", "is no picture"]);
+    assert_eq!((sandbox.text("other.ron"), sandbox.text("notes.png")), (notes.to_owned(), notes.to_owned()));
+    for name in ["a.png", "a.exr", "a.hdr", "a.pfm"] {
+        render(&["-o", name, "--report", "report.json"]).ends(0);
+        render(&["-o", name, "--report", "report.json"]).ends(0);
+    }
+    sandbox.write("empty.png", "");
+    render(&["-o", "empty.png"]).ends(0);
+    sandbox.run(&["compare", "a.png", "a.png", "-o", "notes.png"]).ends(2).says(&["is no picture"]);
+    fs::create_dir(sandbox.path("golden")).expect("a folder");
+    sandbox.write("golden/one.ron", sandbox.text("scene.ron"));
+    for option in ["--json", "--junit", "--html"] {
+        sandbox.run(&["golden", "run", "golden", option, "other.ron"]).ends(2).says(&["is no report"]);
+        sandbox.run(&["golden", "run", "golden", option, "made"]).ends(1);
+        sandbox.run(&["golden", "run", "golden", option, "made"]).ends(1);
+        fs::remove_file(sandbox.path("made")).expect("it is there");
+    }
+    sandbox.run(&["inspect", "scene.ron", "--pixel", "0,0", "--svg", "a.svg"]).ends(0);
+    sandbox.run(&["inspect", "scene.ron", "--pixel", "0,0", "--svg", "a.svg"]).ends(0);
+    assert_eq!(sandbox.text("other.ron"), notes);
+}

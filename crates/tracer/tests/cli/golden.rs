@@ -230,6 +230,16 @@ fn files_of_scenes_are_spared() {
         ran.says(&[option, "would replace a file of the scenes"]);
         assert_eq!(sandbox.read(file), before);
     }
+    // Also what a scene reads that is not run, or that is wrong.
+    sandbox.write("leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let leaf = SCENE.replace("objects: [", "objects: [Mesh(file: \"../leaf.obj\"), ");
+    for text in [leaf.clone(), leaf.trim_end().trim_end_matches(')').to_owned()] {
+        sandbox.write("golden/leaf.ron", text);
+        for only in [&["--only", "plain"][..], &[]] {
+            let line = [&["golden", "run", "golden", "--json", "leaf.obj"], only].concat();
+            sandbox.run(&line).ends(2).says(&["--json", "leaf.obj"]);
+        }
+    }
     let twice = ["golden", "run", "golden", "--json", "a.txt", "--junit", "./a.txt"];
     sandbox.run(&twice).ends(2).says(&["both name"]);
 }

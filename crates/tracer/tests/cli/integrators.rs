@@ -114,5 +114,5 @@ fn a_layer_is_shown_as_a_picture() {
     let wrong = ["render", "scene.ron", "-o", "a.exr", "--show", "noise"];
     sandbox.run(&wrong).ends(2).says(&["--show is for PNG only"]);
     let wrong = ["render", "scene.ron", "-o", "a.png", "--show", "heat"];
-    sandbox.run(&wrong).ends(2).says(&["names of layers", "path_length", "nodes"]);
+    sandbox.run(&wrong).ends(2).says(&["the name of a layer", "path_length", "nodes"]);
 }

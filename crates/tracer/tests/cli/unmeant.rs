@@ -82,6 +82,10 @@ fn glass_inside_out_is_told() {
         )
     };
     assert_eq!(codes(&sandbox, &with("in.obj", "Transparent(ior: 1.5)")), ["W0305"]);
+    // To mirror it turns nothing: its outside stays inside.
+    let mirrored = "Transparent(ior: 1.5), transform: [Scale((-1, 1, 1))]";
+    assert_eq!(codes(&sandbox, &with("in.obj", mirrored)), ["W0305"]);
+    assert!(codes(&sandbox, &with("out.obj", mirrored)).is_empty());
     for (file, material) in
         [("out.obj", "Transparent(ior: 1.5)"), ("open.obj", "Transparent(ior: 1.5)"), ("in.obj", "Diffuse()")]
     {

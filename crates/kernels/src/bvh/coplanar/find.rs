@@ -13,6 +13,9 @@
 //! where all their corners are the same: a wall that two bodies share.
 
 use super::super::geometry::{Geometry, LeftOut, NONE};
+use super::grid::grid;
+use super::pairs::pairs_in;
+use super::same::{Same, identical};
 use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks, SAME_SIDE, TRANSMITS};
 use crate::shapes::{FlatFace, Row};
 use glam::{DMat3, DVec3};
@@ -34,7 +37,7 @@ const MOST_SHAPES: usize = 1 << 16;
 const DOUBLE: f64 = 16.0 / 9_007_199_254_740_992.0;
 
 /// 2^-24.
-const UNIT: f64 = 1.0 / 16_777_216.0;
+pub(super) const UNIT: f64 = 1.0 / 16_777_216.0;
 
 /// The sides of the cells, from fine to coarse.
 const CELLS: [f64; 4] = [1.0 / 262_144.0, 1.0 / 8192.0, 1.0 / 256.0, 1.0 / 8.0];
@@ -43,27 +46,27 @@ const CELLS: [f64; 4] = [1.0 / 262_144.0, 1.0 / 8192.0, 1.0 / 256.0, 1.0 / 8.0];
 const ROOM: f64 = 16.0;
 
 /// A triangle of the scene, in render space.
-struct Face {
+pub(super) struct Face {
     primitive: u32,
     instance: u32,
     /// Which of a shape's flat parts.
     part: u8,
     /// What it is half of the square about.
-    curved: Option<FlatFace>,
+    pub(super) curved: Option<FlatFace>,
     /// To the outside of its body; `None`: it bounds none.
     outward: Option<DVec3>,
     material: Option<u32>,
-    corners: [DVec3; 3],
-    normal: DVec3,
+    pub(super) corners: [DVec3; 3],
+    pub(super) normal: DVec3,
     centre: DVec3,
     /// How far its corners may be off along each axis.
     moved: DVec3,
     /// How far its corners may be off across the plane.
-    error: f64,
+    pub(super) error: f64,
     /// The least of its heights.
     height: f64,
     /// The largest coordinate.
-    reach: f64,
+    pub(super) reach: f64,
     rank: u8,
     /// It is too narrow for its plane to be known.
     narrow: bool,
@@ -75,12 +78,12 @@ impl Face {
     }
 
     /// Whether it is a plane without an end.
-    fn is_endless(&self) -> bool {
+    pub(super) fn is_endless(&self) -> bool {
         self.curved.is_some_and(|face| face.is_endless())
     }
 
     /// The least wins.
-    fn order(&self) -> (u8, bool, (u32, u32, u8)) {
+    pub(super) fn order(&self) -> (u8, bool, (u32, u32, u8)) {
         (self.rank, self.is_endless(), self.id())
     }
 
@@ -116,37 +119,18 @@ impl Coplanar {
             doubt.then(order(a).cmp(&order(b)))
         });
         let flat = faces.partition_point(|face| !face.narrow);
-        let mut pairs = pairs_in(planes(&faces[..flat], scene), &faces);
+        let same = Same::of(&faces[..flat]);
+        let mut pairs = pairs_in(planes(&faces[..flat], scene, &same), &faces);
         pairs.extend(identical(&faces, flat));
-        pairs.extend(in_planes(geometry, ranks, &mut faces));
+        pairs.extend(in_planes(geometry, ranks, &mut faces, &same));
         pairs.sort_unstable_by_key(|pair| (pair.0, pair.1));
-        if pairs.is_empty() { None } else { Some(of_pairs(geometry, &faces, &pairs)) }
+        if pairs.is_empty() { None } else { Some(of_pairs(geometry, &faces, &pairs, &same)) }
     }
 }
 
 /// The id of the scene's first triangle.
 fn first_primitive(geometry: &Geometry) -> u32 {
     geometry.meshes.iter().map(|mesh| mesh.first_primitive).min().unwrap_or(0)
-}
-
-/// The pairs of triangles too narrow to have a plane, those from `first` on, whose corners are the same, winner first.
-fn identical(faces: &[Face], first: usize) -> Vec<(u32, u32, f64)> {
-    let key = |face: &Face| {
-        let mut corners = face.corners.map(|corner| corner.to_array().map(f64::to_bits));
-        corners.sort_unstable();
-        corners
-    };
-    let mut order: Vec<_> = (first..faces.len()).into_par_iter().map(|k| (key(&faces[k]), k as u32)).collect();
-    order.par_sort_unstable();
-    let mut pairs = Vec::new();
-    for same in order.chunk_by(|a, b| a.0 == b.0) {
-        let ids = || same.iter().map(|&(_, k)| k);
-        // Who wins, wins everywhere.
-        let Some(winner) = ids().min_by_key(|&k| faces[k as usize].order()) else { continue };
-        let gap = 2.0 * faces[winner as usize].error;
-        pairs.extend(ids().filter(|&k| k != winner).map(|loser| (winner, loser, gap)));
-    }
-    pairs
 }
 
 /// Which meshes are looked at.
@@ -225,7 +209,7 @@ fn of_shape(geometry: &Geometry, ranks: &Ranks, k: u32, row: &Row) -> impl Itera
 
 /// The pairs of a plane without an end and what lies in it, winner first; the planes are put behind the faces. A face
 /// is in a plane if its corners are no farther off than twice what rounding may have moved them.
-fn in_planes(geometry: &Geometry, ranks: &Ranks, faces: &mut Vec<Face>) -> Vec<(u32, u32, f64)> {
+fn in_planes(geometry: &Geometry, ranks: &Ranks, faces: &mut Vec<Face>, same: &Same) -> Vec<(u32, u32, f64)> {
     let (count, mut pairs) = (faces.len(), Vec::new());
     for (k, row) in (geometry.shapes.len()..).zip(geometry.planes) {
         let Some(curved) = row.flat_faces().next() else { continue };
@@ -253,7 +237,8 @@ fn in_planes(geometry: &Geometry, ranks: &Ranks, faces: &mut Vec<Face>) -> Vec<(
         let place = faces.len() as u32;
         pairs.par_extend(faces[..count].par_iter().enumerate().filter_map(|(other, face)| {
             let known = normal.abs().dot(face.moved) + DOUBLE * (face.reach + offset.abs());
-            let lies_in = face.corners.iter().all(|corner| (normal.dot(*corner) - offset).abs() <= known);
+            let stands = !same.stood_for(other as u32);
+            let lies_in = stands && face.corners.iter().all(|corner| (normal.dot(*corner) - offset).abs() <= known);
             let pair = if face.order() < plane.order() { [other as u32, place] } else { [place, other as u32] };
             lies_in.then_some((pair[0], pair[1], known))
         }));
@@ -304,12 +289,13 @@ fn face(corners: [DVec3; 3], placement: Option<[[f32; 4]; 3]>, id: (u32, u32), r
     (area > 0.0 && area.is_finite()).then_some(face)
 }
 
-/// Groups of triangles in one plane, the best known one first, with how far off the planes may be.
-fn planes(faces: &[Face], scene: f64) -> Vec<(Vec<u32>, f64)> {
+/// Groups of triangles in one plane, the best known one first, with how far off the planes may be; without those that
+/// others stand for.
+fn planes(faces: &[Face], scene: f64, same: &Same) -> Vec<(Vec<u32>, f64)> {
     let level_of =
         |face: &Face| CELLS.iter().position(|cell| *cell >= ROOM * face.doubt(scene)).unwrap_or(CELLS.len() - 1);
     let mut cells: Vec<Vec<(u64, u32)>> = vec![Vec::new(); CELLS.len()];
-    for (k, face) in (0..).zip(faces) {
+    for (k, face) in (0..).zip(faces).filter(|(k, _)| !same.stood_for(*k)) {
         let level = level_of(face);
         let ball = 4.0 * face.doubt(scene) / CELLS[level];
         let at = coordinates(face, scene).map(|x| x / CELLS[level]);
@@ -320,7 +306,7 @@ fn planes(faces: &[Face], scene: f64) -> Vec<(Vec<u32>, f64)> {
         cells[level].extend(corners.into_iter().map(|key| (key, k)));
     }
     cells.par_iter_mut().for_each(|cells| cells.par_sort_unstable());
-    let mut free = vec![true; faces.len()];
+    let mut free: Vec<bool> = (0..faces.len() as u32).map(|k| !same.stood_for(k)).collect();
     let mut planes = Vec::new();
     for (k, face) in (0u32..).zip(faces) {
         if !free[k as usize] {
@@ -359,68 +345,16 @@ fn key(cell: [i64; 3]) -> u64 {
     cell.iter().fold(0, |key: u64, &x| (key ^ x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29))
 }
 
-/// The pairs that overlap, winner first, with how far apart they may be.
-fn pairs_in(planes: Vec<(Vec<u32>, f64)>, faces: &[Face]) -> Vec<(u32, u32, f64)> {
-    let mut pairs: Vec<(u32, u32, f64)> = planes
-        .into_par_iter()
-        .flat_map_iter(|(members, gap)| {
-            let axes = other_axes(faces[members[0] as usize].normal);
-            let flat = |k: u32| faces[k as usize].corners.map(|corner| axes.map(|axis| corner[axis]));
-            let least = |k: u32| flat(k).iter().fold(f64::INFINITY, |least, corner| least.min(corner[0]));
-            let most = |k: u32| flat(k).iter().fold(f64::NEG_INFINITY, |most, corner| most.max(corner[0]));
-            let mut order: Vec<(f64, f64, u32)> = members.iter().map(|&k| (least(k), most(k), k)).collect();
-            order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
-            let (mut open, mut found): (Vec<(f64, u32)>, Vec<_>) = (Vec::new(), Vec::new());
-            for (lower, upper, k) in order {
-                open.retain(|other| other.0 > lower);
-                for &(_, other) in &open {
-                    let (a, b) = (&faces[k as usize], &faces[other as usize]);
-                    // Corners that two share may have been rounded apart.
-                    if overlap(&flat(k), &flat(other), 16.0 * UNIT * (a.reach + b.reach)) {
-                        found.push(if a.order() < b.order() { (k, other, gap) } else { (other, k, gap) });
-                    }
-                }
-                open.push((upper, k));
-            }
-            found
-        })
-        .collect();
-    pairs.sort_unstable_by_key(|a| (a.0, a.1));
-    pairs
-}
-
-/// The axes of the plane in which triangles with this normal are seen best.
-fn other_axes(normal: DVec3) -> [usize; 2] {
-    let n = normal.abs();
-    match (n.x >= n.y && n.x >= n.z, n.y >= n.z) {
-        (true, _) => [1, 2],
-        (_, true) => [2, 0],
-        _ => [0, 1],
-    }
-}
-
-/// Whether two triangles of a plane overlap by more than a margin in every direction across their sides.
-fn overlap(a: &[[f64; 2]; 3], b: &[[f64; 2]; 3], margin: f64) -> bool {
-    [a, b].into_iter().all(|of| {
-        (0..3).all(|k| {
-            let (p, q) = (of[k], of[(k + 1) % 3]);
-            let across = [p[1] - q[1], q[0] - p[0]];
-            let length = (across[0] * across[0] + across[1] * across[1]).sqrt();
-            let along = |x: &[f64; 2]| (x[0] - p[0]) * across[0] + (x[1] - p[1]) * across[1];
-            let (least, most) = span(a.map(|x| along(&x)));
-            let (lower, upper) = span(b.map(|x| along(&x)));
-            most.min(upper) - least.max(lower) > margin * length
-        })
-    })
-}
-
-fn span(x: impl IntoIterator<Item = f64>) -> (f64, f64) {
-    x.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| (least.min(x), most.max(x)))
-}
-
-fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> Coplanar {
+// Long: one table is filled by all pairs.
+fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)], same: &Same) -> Coplanar {
     // One of the halves of a square stands for both.
     let mut named: Vec<u32> = pairs.iter().flat_map(|pair| [pair.0, pair.1]).collect();
+    named.sort_unstable();
+    named.dedup();
+    // Of planes that were left out nobody is told apart.
+    let told = |k: u32| named.binary_search(&k).is_ok();
+    let beside: Vec<u32> = same.pairs.iter().filter(|pair| told(pair.1)).map(|pair| pair.0).collect();
+    named.extend(beside);
     named.sort_unstable_by_key(|&k| (faces[k as usize].id(), k));
     named.dedup_by_key(|&mut k| faces[k as usize].id());
     let member_of = |k: u32| {
@@ -456,9 +390,14 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
             offsets.of[place] = offsets.of[place].max(offset);
         }
     }
+    let index = |k: u32| named.binary_search_by_key(&faces[k as usize].id(), |&k| faces[k as usize].id());
+    let stood_for: Vec<(usize, usize)> =
+        same.pairs.iter().filter_map(|&(k, winner)| Some((index(k).ok()?, index(winner).ok()?))).collect();
+    let mut stands = vec![false; named.len()];
+    stood_for.iter().for_each(|&(_, winner)| stands[winner] = true);
     let (mut winners, mut all_touching): (Vec<u32>, Vec<[u32; 2]>) = (Vec::new(), Vec::new());
-    let mut members = Vec::with_capacity(named.len());
-    for ((&k, mut list), mut touching) in named.iter().zip(lists).zip(touching) {
+    let (mut members, mut grids): (Vec<Member>, Vec<Grid>) = (Vec::with_capacity(named.len()), Vec::new());
+    for (member, ((&k, mut list), mut touching)) in (0u32..).zip(named.iter().zip(lists).zip(touching)) {
         touching.sort_unstable();
         touching.dedup();
         let begin = all_touching.len() as u32;
@@ -466,9 +405,13 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
         let touching = [begin, all_touching.len() as u32];
         list.sort_unstable_by_key(|&member| faces[named[member as usize] as usize].order());
         list.dedup();
+        // Who stands for others is among the winners that it shares with them.
+        list.extend(stands[member as usize].then_some(member));
         let face = &faces[k as usize];
         let begin = winners.len() as u32;
         winners.extend_from_slice(&list);
+        let gridded = list.len() > LONG;
+        grids.extend(gridded.then(|| grid(face, &list, faces, &named)));
         members.push(Member {
             primitive: face.primitive,
             instance: face.instance,
@@ -479,10 +422,17 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)]) -> C
             normal: face.normal.as_vec3().to_array(),
             winners: [begin, winners.len() as u32],
             touching,
-            grid: (list.len() > LONG).then(|| grid(face, &list, faces, &named)),
+            grid: gridded.then(|| grids.len() - 1),
         });
     }
-    Coplanar { triangles, shapes, members, winners, touching: all_touching, in_planes: what_lies_in(pairs, faces) }
+    for (member, winner) in stood_for {
+        (members[member].winners, members[member].grid) = (members[winner].winners, members[winner].grid);
+        let offset = triangles.get(members[winner].primitive);
+        let place = (members[member].primitive - first) as usize;
+        triangles.of[place] = triangles.of[place].max(offset);
+    }
+    let in_planes = what_lies_in(pairs, faces, same);
+    Coplanar { triangles, shapes, members, winners, touching: all_touching, in_planes, grids }
 }
 
 /// What lies behind the one face by the other one, where both bodies let light through: the other's material + 1, and
@@ -495,57 +445,23 @@ fn touches(face: &Face, other: &Face) -> Option<u32> {
 }
 
 /// Each plane without an end of a pair, with what lies in it.
-fn what_lies_in(pairs: &[(u32, u32, f64)], faces: &[Face]) -> Vec<[u32; 3]> {
+fn what_lies_in(pairs: &[(u32, u32, f64)], faces: &[Face], same: &Same) -> Vec<[u32; 3]> {
     let both = |&(one, other, _): &(u32, u32, f64)| [(one, other), (other, one)];
-    let ends = pairs.iter().flat_map(both).map(|(a, b)| (&faces[a as usize], &faces[b as usize]));
+    let mut ends: Vec<(u32, u32)> =
+        pairs.iter().flat_map(both).filter(|(plane, _)| faces[*plane as usize].is_endless()).collect();
+    ends.sort_unstable_by_key(|&(plane, other)| (other, plane));
+    let mut beside: Vec<(u32, u32)> = Vec::new();
+    for &(k, winner) in &same.pairs {
+        let from = ends.partition_point(|end| end.1 < winner);
+        beside.extend(ends[from..].iter().take_while(|end| end.1 == winner).map(|&(plane, _)| (plane, k)));
+    }
     let mut found: Vec<[u32; 3]> = ends
-        .filter(|(plane, _)| plane.is_endless())
+        .iter()
+        .chain(&beside)
+        .map(|&(plane, other)| (&faces[plane as usize], &faces[other as usize]))
         .map(|(plane, other)| [plane.primitive, other.primitive, other.instance])
         .collect();
     found.sort_unstable();
     found.dedup();
     found
-}
-
-/// A grid over the winners of a triangle or plane, some one to a cell. Each reaches a quarter of a cell beyond its box:
-/// the point where a ray meets the plane is known so well unless the ray hardly leaves it.
-fn grid(face: &Face, list: &[u32], faces: &[Face], named: &[u32]) -> Grid {
-    let axes = other_axes(face.normal);
-    let cells = (list.len() as f64).sqrt().ceil().min(256.0) as usize;
-    let corners_of = |face: &Face| face.curved.map_or(face.corners.to_vec(), |curved| curved.corners().to_vec());
-    let others = || list.iter().map(|&member| &faces[named[member as usize] as usize]);
-    let spanned: Vec<DVec3> = match face.is_endless() {
-        true => others().flat_map(corners_of).collect(),
-        false => face.corners.to_vec(),
-    };
-    let spans = axes.map(|axis| span(spanned.iter().map(|corner| corner[axis])));
-    let scale = spans.map(|(lower, upper)| cells as f64 / (upper - lower));
-    let mut held: Vec<Vec<u32>> = vec![Vec::new(); cells * cells];
-    for (&member, other) in list.iter().zip(others()) {
-        let corners = corners_of(other);
-        let [x, y] = [0, 1].map(|k: usize| {
-            let (lower, upper) = match other.is_endless() {
-                true => spans[k],
-                false => span(corners.iter().map(|corner| corner[axes[k]])),
-            };
-            let cell = |x: f64| ((x - spans[k].0) * scale[k]).clamp(0.0, (cells - 1) as f64) as usize;
-            cell(lower - 0.25 / scale[k])..=cell(upper + 0.25 / scale[k])
-        });
-        for row in y {
-            x.clone().for_each(|column| held[row * cells + column].push(member));
-        }
-    }
-    let mut grid = Grid {
-        axes,
-        lower: spans.map(|span| span.0 as f32),
-        scale: scale.map(|x| x as f32),
-        cells,
-        starts: vec![0],
-        lists: Vec::new(),
-    };
-    for mut cell in held {
-        grid.lists.append(&mut cell);
-        grid.starts.push(grid.lists.len() as u32);
-    }
-    grid
 }

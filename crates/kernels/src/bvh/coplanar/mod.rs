@@ -28,6 +28,9 @@
 //! are no farther from the plane of the other than twice what the rounding of both may have moved them.
 
 mod find;
+mod grid;
+mod pairs;
+mod same;
 
 use super::geometry::NONE;
 use super::ray_space::RaySpace;
@@ -97,6 +100,8 @@ pub struct Coplanar {
     touching: Vec<[u32; 2]>,
     /// Planes without an end, each with the (primitive, instance) of all that lies in it, rising.
     in_planes: Vec<[u32; 3]>,
+    /// Over long lists of winners.
+    grids: Vec<Grid>,
 }
 
 /// How far rays start off primitives whose ids follow each other; 0 where nothing else lies in their planes.
@@ -138,7 +143,8 @@ struct Member {
     winners: [u32; 2],
     /// Where those of other bodies stand in `Coplanar::touching`.
     touching: [u32; 2],
-    grid: Option<Grid>,
+    /// Which of `Coplanar::grids` has them by place.
+    grid: Option<usize>,
 }
 
 impl Member {
@@ -236,8 +242,8 @@ impl Coplanar {
         let (origin, direction) = ray_of(rays, ray);
         let from = (rays.from_primitive[ray], rays.from_instance[ray]);
         let space = RaySpace::new(origin, direction)?;
-        let list = match &member.grid {
-            Some(grid) => grid.near(origin, direction, t),
+        let list = match member.grid {
+            Some(grid) => self.grids[grid].near(origin, direction, t),
             None => &self.winners[first as usize..end as usize],
         };
         // A ray may leave one cap of a shape and come to the other.
@@ -246,7 +252,8 @@ impl Coplanar {
             Outline::Curved(face) => face.is_endless(),
         };
         let left = |m: &Member| is_one(m) && (m.primitive, m.instance) == from;
-        let mut others = list.iter().map(|&k| &self.members[k as usize]).filter(|m| !left(m));
+        let mut others =
+            list.iter().map(|&k| &self.members[k as usize]).filter(|m| !left(m) && !std::ptr::eq(*m, member));
         others.find(|m| m.outline.is_passed(&space, origin, direction))
     }
 

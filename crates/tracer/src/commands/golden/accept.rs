@@ -72,7 +72,7 @@ pub(super) fn run(args: &GoldenAcceptArgs, shell: &Shell) -> Result<ExitCode, Fa
 ///
 /// # Errors
 /// When what a run found cannot be read.
-fn files_of_scenes(opened: &Opened) -> Result<Vec<PathBuf>, Failure> {
+pub(super) fn files_of_scenes(opened: &Opened) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for case in &opened.folder.cases {
         files.push(case.scene.clone());

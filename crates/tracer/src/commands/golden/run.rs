@@ -1,12 +1,13 @@
 //! `tracer golden run`: renders the scenes of folders and compares.
 
+use super::accept::files_of_scenes;
 use super::examine::{Opened, colours};
 use super::made::PAGE;
 use crate::args::GoldenRunArgs;
 use crate::failure::{Failure, exit};
 use crate::loading::use_threads;
 use crate::shell::Shell;
-use crate::write::{is_one_file, leads_to_same, probe, save};
+use crate::write::{Made, is_one_file, leads_to_same, probe, save, spare_other};
 use crate::{interrupt, lanes};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -22,11 +23,7 @@ pub(super) fn run(args: &GoldenRunArgs, shell: &Shell) -> Result<ExitCode, Failu
     let folders = open(&args.folders)?;
     let chosen = chosen(&folders, &args.only)?;
     let outputs = Outputs::new(args)?;
-    let own = folders.iter().flat_map(|opened| {
-        let cases = opened.folder.cases.iter().map(|case| case.scene.clone());
-        cases.chain(opened.folder.pictures.clone()).chain([opened.path.join(FILE), opened.path.join("log.md")])
-    });
-    outputs.spare(&own.collect::<Vec<PathBuf>>())?;
+    outputs.spare_folders(&folders)?;
     interrupt::listen(*shell)?;
     let threads = args.threads.map_or(0, usize::from);
     let mut outcomes: Vec<Outcome> = Vec::new();
@@ -164,6 +161,20 @@ impl<'a> Outputs<'a> {
             }
         }
         Ok(())
+    }
+
+    /// The same for all files of the folders, and all that their scenes read, also those that are not run.
+    ///
+    /// # Errors
+    /// The first that would, or what a run before found cannot be read.
+    fn spare_folders(&self, folders: &[Opened]) -> Result<(), Failure> {
+        for opened in folders.iter().filter(|_| !self.files.is_empty()) {
+            let mut own = files_of_scenes(opened)?;
+            own.extend(opened.folder.pictures.clone());
+            own.extend([opened.path.join(FILE), opened.path.join("log.md")]);
+            self.spare(&own)?;
+        }
+        self.files.iter().try_for_each(|(_, path)| Ok(spare_other(path, Made::Report)?))
     }
 
     fn write(&self, outcomes: &[Outcome]) -> Result<(), Failure> {

@@ -36,6 +36,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let Sorted { parts, gaps } = sorted(parts, damaged, args, allowed, shell)?;
     let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
     spare_scene(args, files(&outputs), &heads)?;
+    outputs::spare_others(&outputs, args.report.as_deref())?;
     if args.denoise.is_on() {
         denoising::check(heads[0].has_halves(), heads[0].layers())?;
     }

@@ -113,6 +113,7 @@ fn one(
     denoising::prepare(&mut scene, args.denoise.is_on())?;
     // Only now it is known what the meshes' own materials name.
     outputs::spare_inputs(&outputs, args, &scene.files)?;
+    outputs::spare_others(&outputs, args.report.as_deref())?;
     // A part that is kept under its own name needs no second file.
     let is_kept = part_file.as_ref().is_some_and(|file| places.writes(file));
     let extent = Extent::Film(crop, part);

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::loading::is_dash;
 use crate::report::FileReport;
 use crate::shell::Shell;
-use crate::write::{Bits, Encoding, Place, is_one_file};
+use crate::write::{Bits, Encoding, Made, Place, is_one_file, spare_other};
 use scene_format::SceneDesc;
 use std::collections::HashSet;
 use std::io::{IsTerminal, Read};
@@ -308,4 +308,17 @@ pub fn probe(outputs: &[Output], report: Option<&Path>) -> Result<(), Failure> {
         crate::write::probe(path)?;
     }
     Ok(())
+}
+
+/// Sees that pictures and a report replace pictures and reports alone.
+///
+/// # Errors
+/// The first place where something else is.
+pub fn spare_others(outputs: &[Output], report: Option<&Path>) -> Result<(), Failure> {
+    for output in outputs {
+        if let Place::File(path) = &output.place {
+            spare_other(path, Made::Picture)?;
+        }
+    }
+    report.filter(|report| !is_dash(report)).map_or(Ok(()), |report| Ok(spare_other(report, Made::Report)?))
 }

@@ -2,7 +2,7 @@
 //! tree or lanes: every ray is tested against everything. Slow, and sure: what the engine's own pictures are held
 //! against.
 
-use super::outputs::{outputs, probe, spare_inputs};
+use super::outputs::{outputs, probe, spare_inputs, spare_others};
 use super::rescue::{Pictures, pictures};
 use crate::args::RenderArgs;
 use crate::cache::Cache;
@@ -52,6 +52,7 @@ pub(super) fn run(
     spare_inputs(&outputs, args, &named)?;
     let scene = compile(&desc, args.scene.diagnostics, cache.map_or(Known::Nothing, Known::Cached), shell)?;
     spare_inputs(&outputs, args, &scene.files)?;
+    spare_others(&outputs, None)?;
     if scene.look.backdrop != Backdrop::Background {
         return Err(Failure::wrong("--integrator reference knows no output.alpha and no output.backdrop"));
     }

@@ -1,0 +1,62 @@
+//! Fields of other programs that are said in another way here.
+
+use crate::schema::StructDef;
+
+/// How it is said here.
+pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static str> {
+    let has = |field| def.field(field).is_some();
+    let camera = def.name == "Camera";
+    let texture = has("file") && has("mapping");
+    Some(match lower {
+        "attenuation_color"
+        | "attenuation_distance"
+        | "fade_color"
+        | "fade_distance"
+        | "fade_power"
+        | "transmit"
+        | "filter"
+            if has("ior") =>
+        {
+            "glass takes nothing on the way through: it is coloured by `transmittance`, once at each surface"
+        }
+        "priority" if has("ior") => "which of two glasses holds where they meet needs no number: leave it out",
+        "alpha" | "alpha_x" | "alpha_y" if def.name == "Conductor" => "`roughness` is the root of alpha: 0.3 for 0.09",
+        "anisotropy" | "anisotropic" if def.name == "Conductor" => "metal is as rough in all directions: `roughness`",
+        "mask" | "normaltexture" | "opacity_mask" if has("albedo") || has("material") => {
+            "surfaces have no masks and no bumps: what is not there is left out of the mesh"
+        }
+        "texture_transform" | "uv_transform" | "uvtransform" if texture => {
+            "it is moved and turned by its mapping: `mapping: Uv(scale: (2, 2), offset: (0, 0), rotation: 30)`"
+        }
+        "interpolation" | "filter_type" | "filtering" if texture => {
+            "how it is filtered is `filter`: Bilinear or Nearest"
+        }
+        "extension" | "wrap_mode" | "extend" if texture => "what is beyond the picture is said by `wrap`",
+        "gamma" | "encoding" | "srgb" | "raw" if texture => {
+            "what its numbers mean is `color_space`; PNG and JPEG are read as sRGB, HDR and EXR as they are"
+        }
+        "roll" if camera => "it is turned about its view by `up`: (0.1, 1, 0) for a little",
+        "focus_on" | "focal_point" if camera => {
+            "what is sharp is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_on: ..))`"
+        }
+        "principal_point_offset_x" | "principal_point_offset_y" | "lens_shift" if camera => {
+            "the picture is shifted by `shift: (0.1, 0)`"
+        }
+        "interocular" | "eye_separation" | "ipd" | "interpupillary_distance" if camera => {
+            "two eyes are `stereo: Stereo(..)`"
+        }
+        "velocity" | "motion" if has("material") => {
+            "what moves has expressions of `time`: `center: (\"=time\", 0, 0)`, seen while the camera's `shutter` is open"
+        }
+        "count" | "repeat" | "copies" if has("placements") => {
+            "copies are its `placements`, Grid(..), Ring(..) or Scatter(..), or made by `Repeat(count: 8, items: [..])`"
+        }
+        "parent" if has("material") => "what is moved together stands in a `Group(objects: [..], transform: [..])`",
+        "title" | "description" | "author" if def.name == "Scene" => "write it as a comment",
+        "default" | "array" | "driver" | "link" | "functions" if def.name == "Scene" => {
+            "values with names stand in `vars`, and are reckoned with in expressions: \"=2*height\""
+        }
+        "transparent" if def.name == "Output" => "the background is left out of the picture by `alpha: true`",
+        _ => return None,
+    })
+}
