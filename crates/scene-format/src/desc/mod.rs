@@ -66,7 +66,7 @@ pub use shapes::{
     Arrow, Capsule, Cone, Corners, Curve, Cylinder, Difference, Disk, Extrude, Faces, Groups, HeightField, InlineMesh,
     Instances, Intersection, Lathe, Mesh, MeshSource, Moved, Operands, Outline, PathPoints, PlacementList,
     PlacementPattern, Placements, Plane, Polygon, Profile, Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube,
-    Turning, Union, Within, no_extent,
+    TubeCurve, Turning, Union, Within, no_extent,
 };
 pub(crate) use stereo::Stereoscopy;
 pub use stereo::{Stereo, StereoLayout};

@@ -291,7 +291,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                     _ => Radii::Each((0..2 + random.below(3)).map(|_| length(random)).collect()),
                 }
                 .into(),
-                curve: *random.pick(&[Curve::Linear, Curve::CatmullRom]),
+                curve: *random.pick(&[TubeCurve::Linear, TubeCurve::CatmullRom, TubeCurve::Bezier]),
                 closed: random.below(2) == 0,
                 segments: (3 + random.below(4094) as u32).into(),
                 material,

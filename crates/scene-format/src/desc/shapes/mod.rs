@@ -28,7 +28,7 @@ pub use r#box::RectBox;
 pub use capsule::Capsule;
 pub use cone::Cone;
 pub use csg::{Difference, Intersection, Operands, Union};
-pub use curve::Curve;
+pub use curve::{Curve, TubeCurve};
 pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use extrude::{Extrude, Outline};
