@@ -255,7 +255,7 @@ fn fields_of_shapes() {
         ("Lathe(profile: [(0, 0), (1, 1)], curve: cubic_spline)".to_owned(), "did you mean `CatmullRom`?"),
         ("Lathe(profile: [(0, 0), (1, 1)], curve: linear_spline)".to_owned(), "did you mean `Linear`?"),
         ("Lathe(profile: [(0, 0), (1, 1)], curve: Bezier)".to_owned(), "no control points"),
-        (tube("Bezier"), ""),
+        ("Mesh(file: \"a.obj\", submesh: \"wheel\")".to_owned(), "did you mean `part`?"),
         (tube("bezier_spline"), "did you mean `Bezier`?"),
         (tube("cubic_spline"), "did you mean `CatmullRom`?"),
         (tube("linear_spline"), "did you mean `Linear`?"),

@@ -23,6 +23,12 @@ impl Reader<'_> {
         self.sink.diagnostics.len()
     }
 
+    /// Whether something within these words has been told.
+    fn has_told_within(&self, words: Span) -> bool {
+        let within = |at: Span| at.source == words.source && words.start <= at.start && at.end <= words.end;
+        self.sink.diagnostics.iter().any(|told| within(told.span))
+    }
+
     /// Leaves the first of the faults that were told since then, where so many are all there are and all have this
     /// code.
     pub(crate) fn once(&mut self, since: usize, code: codes::Code, count: usize) {
@@ -51,6 +57,10 @@ impl Reader<'_> {
                 };
             } else {
                 sides -= sides_of(&object.value);
+            }
+            // How many there have to be goes by words beside them, and those may be what was told.
+            if faults.iter().any(|fault| fault.code == codes::WRONG_COUNT) && self.has_told_within(object.span) {
+                faults.retain(|fault| fault.code != codes::WRONG_COUNT);
             }
             if self.intense {
                 faults.extend(no_intensity(&object.value, &intense));

@@ -35,7 +35,7 @@ pub use extrude::{Extrude, Outline};
 pub use height_field::HeightField;
 pub use inline_mesh::{Faces, InlineMesh};
 pub use lathe::{Lathe, Profile, Turning};
-pub use mesh::{Instances, Mesh, MeshSource, Shading};
+pub use mesh::{Instances, Mesh, MeshSource, Part, Shading};
 pub use pattern::PlacementPattern;
 pub use placements::{Groups, Moved, PlacementList, Placements, Within};
 pub use plane::Plane;
