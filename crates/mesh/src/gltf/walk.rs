@@ -21,7 +21,6 @@ struct Scene {
 
 #[derive(Deserialize)]
 struct Node {
-    name: Option<String>,
     mesh: Option<u32>,
     #[serde(default)]
     children: Vec<u32>,
@@ -237,7 +236,9 @@ impl<'w, 'a> Walk<'w, 'a> {
                 let message = format!("the matrices down to {} leave the range of numbers", List::Nodes.shown(node));
                 return Err(Fault::new(at, message, "finite numbers"));
             }
-            let in_part = in_part || self.part.as_mut().is_some_and(|part| part.is_of_node(value.name));
+            // A name that is no text is no fault of those who do not ask for it.
+            let name = || self.document.name_of(List::Nodes, node);
+            let in_part = in_part || self.part.as_mut().is_some_and(|part| part.is_of_node(name()));
             if let Some(mesh) = value.mesh {
                 self.mesh(mesh, at, map, in_part)?;
             }
