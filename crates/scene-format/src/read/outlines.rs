@@ -23,10 +23,9 @@ impl Reader<'_> {
         self.sink.diagnostics.len()
     }
 
-    /// Whether something within these words has been told.
-    fn has_told_within(&self, words: Span) -> bool {
-        let within = |at: Span| at.source == words.source && words.start <= at.start && at.end <= words.end;
-        self.sink.diagnostics.iter().any(|told| within(told.span))
+    /// Whether a fault of syntax has been told.
+    fn is_damaged(&self) -> bool {
+        self.sink.diagnostics.iter().any(|told| told.code.as_str().starts_with("E01"))
     }
 
     /// Leaves the first of the faults that were told since then, where so many are all there are and all have this
@@ -58,8 +57,8 @@ impl Reader<'_> {
             } else {
                 sides -= sides_of(&object.value);
             }
-            // How many there have to be goes by words beside them, and those may be what was told.
-            if faults.iter().any(|fault| fault.code == codes::WRONG_COUNT) && self.has_told_within(object.span) {
+            // How many there have to be goes by words beside them, and of a damaged text those may be lost.
+            if faults.iter().any(|fault| fault.code == codes::WRONG_COUNT) && self.is_damaged() {
                 faults.retain(|fault| fault.code != codes::WRONG_COUNT);
             }
             if self.intense {

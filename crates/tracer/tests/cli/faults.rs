@@ -51,7 +51,7 @@ fn parts_of_meshes_that_are_none_are_told() {
         sandbox.run(&["check", "car.ron"])
     };
     with("file: \"car.obj\", part: \"wheel\"").ends(0);
-    let told = ["E0514", "car.ron:2:35", "there is no part `whel`", "`body`, `wheel`", "did you mean `wheel`?"];
+    let told = ["E0514", "car.ron:2:33", "there is no part `whel`", "`body`, `wheel`", "did you mean `wheel`?"];
     with("file: \"car.obj\", part: \"whel\"").ends(2).says(&told);
     with("file: \"car.ply\", part: \"wheel\"").ends(2).says(&["E0514", "PLY files have no parts", "OBJ, glTF or GLB"]);
     // Two parts of one file, one of which there is.
