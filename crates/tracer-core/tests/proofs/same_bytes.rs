@@ -276,6 +276,24 @@ fn parts_of_meshes() {
     }
 }
 
+/// What is kept of a file is kept for each part of it.
+#[test]
+fn parts_of_meshes_are_kept_apart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("t.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no one\nf 1 2 3\no two\nf 1 2 4\nf 1 3 4\n";
+    std::fs::write(&file, text).expect("a file");
+    let kept = tracer_core::Kept::default();
+    let triangles = |part: Option<&str>| {
+        let mut object = mesh(&file, mirror([0.9; 3]), Shading::Flat, Vec::new());
+        let Object::Mesh(mesh) = &mut object else { panic!("a mesh") };
+        mesh.part = Part::from(part);
+        let desc = scene(8, vec![light([4.0, 7.0, 5.0], 1.0, [12.0, 11.0, 9.0])], vec![object]);
+        tracer_core::compile_keeping(&desc, &kept).expect("a scene").statistics().triangles
+    };
+    assert_eq!([Some("one"), Some("two"), None, Some("one")].map(triangles), [1, 2, 3, 1]);
+}
+
 /// A mesh that the scene writes out is that of a file with the same points and faces, copies and all.
 #[test]
 fn meshes_written_out() {
