@@ -38,10 +38,8 @@ pub(super) fn numbers_of_named(count: usize, corners: &[[u32; 3]]) -> Vec<u32> {
     for &corner in corners.as_flattened().iter().filter(|&&corner| corner != NO_INDEX) {
         numbers[corner as usize] = 0;
     }
-    let mut next = 0;
-    for number in numbers.iter_mut().filter(|number| **number != NO_INDEX) {
+    for (next, number) in (0..).zip(numbers.iter_mut().filter(|number| **number != NO_INDEX)) {
         *number = next;
-        next += 1;
     }
     numbers
 }
