@@ -308,9 +308,9 @@ const SNIPPETS: [(&str, &str, &str); 151] = [
     ),
     ("Curve", "Linear", "curve: Linear"),
     ("Curve", "CatmullRom", "curve: CatmullRom"),
-    ("TubeCurve", "CatmullRom", "curve: CatmullRom"),
-    ("TubeCurve", "Linear", "curve: Linear"),
-    ("TubeCurve", "Bezier", "curve: Bezier"),
+    ("TubeCurve", "CatmullRom", "radius: 0.15, curve: CatmullRom"),
+    ("TubeCurve", "Linear", "radius: 0.15, curve: Linear"),
+    ("TubeCurve", "Bezier", "radius: 0.15, curve: Bezier"),
     ("Instances", "Auto", "instances: Auto"),
     ("Instances", "Always", "instances: Always"),
     ("Instances", "Never", "instances: Never"),
@@ -395,7 +395,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
         "Curve" => object = format!("Lathe(profile: [(0, -1), (1, -0.5), (0.5, 0.5), (0, 1)], {words})"),
         "TubeCurve" => {
             let points = "[(-1, -0.5, 0), (-0.6, 1, 0), (0.6, -1, 0), (1, 0.5, 0)]";
-            object = format!("Tube(points: {points}, radius: 0.15, {words})");
+            object = format!("Tube(points: {points}, {words})");
         }
         "Instances" => {
             object = mesh(&format!("placements: [[], [Translate((1, 0, 0))]], {words}"));
