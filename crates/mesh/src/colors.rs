@@ -4,9 +4,12 @@ use rayon::prelude::*;
 
 /// What of a file is read beside what every mesh has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Wanted {
+pub struct Wanted<'a> {
     /// The colours of vertices. Where they are not wanted they are counted in the mesh's warning, as what is ignored.
     pub colors: bool,
+    /// This part of it alone: the faces of OBJ objects (`o`) and groups (`g`) of this name, or glTF nodes, with what is
+    /// below them, and meshes of this name. The mesh is then that of a file with nothing else in it.
+    pub part: Option<&'a str>,
 }
 
 /// The colours of all vertices of a mesh.

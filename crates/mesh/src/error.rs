@@ -73,6 +73,30 @@ pub enum MeshError {
         /// What was expected.
         expected: String,
     },
+    /// The file has no part of this name.
+    #[error("{}: there is no part {part}", path.display())]
+    UnknownPart {
+        /// The file.
+        path: PathBuf,
+        /// The name that was asked for, in quotes, as all of these are.
+        part: String,
+        /// What parts of such files are: `objects and groups`.
+        kinds: &'static str,
+        /// The name of a part that is most like it.
+        nearest: Option<String>,
+        /// The first names of parts.
+        names: Vec<String>,
+        /// How many there are in all.
+        count: usize,
+    },
+    /// A part is asked for, and files of this format have none.
+    #[error("{}: {what} have no parts", path.display())]
+    NoParts {
+        /// The file.
+        path: PathBuf,
+        /// What they are called: `PLY files`.
+        what: String,
+    },
     /// The file has no triangle.
     #[error("{}: the mesh has no triangles", path.display())]
     Empty {
@@ -84,6 +108,11 @@ pub enum MeshError {
 }
 
 impl MeshError {
+    /// Whether it is about the part that was asked for, not about the file.
+    pub fn is_of_part(&self) -> bool {
+        matches!(self, MeshError::UnknownPart { .. } | MeshError::NoParts { .. })
+    }
+
     /// A fault in a line of `text`.
     #[cold]
     pub(super) fn at_line(path: &Path, text: &[u8], fault: Fault) -> MeshError {
@@ -100,7 +129,7 @@ impl MeshError {
     }
 
     /// The diagnostic at `span` of the scene file: `E0501`, `E0502`, `E0510` (broken mesh), `E0511` (empty
-    /// mesh) or `E0513` (an extension is needed).
+    /// mesh), `E0513` (an extension is needed) or `E0514` (a part that it does not have).
     pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
         match self {
             MeshError::File(error) => error.to_diagnostic(span),
@@ -138,6 +167,19 @@ impl MeshError {
                     .hint(hint)
                     .at_line(path, 0)
             }
+            MeshError::UnknownPart { path, kinds, nearest, names, count, .. } => {
+                let more = if names.len() < *count { format!(", .. ({count} in all)") } else { String::new() };
+                let expected = match names.is_empty() {
+                    true => format!("a file with names of {kinds}, which this one has none of, or no `part`"),
+                    false => format!("one of its {kinds}: {}{more}", names.join(", ")),
+                };
+                let fault = Diagnostic::error(codes::UNKNOWN_PART, span, self.to_string()).expected(expected);
+                let hint = nearest.as_ref().map(|name| format!("did you mean {name}?"));
+                fault.hint(hint.unwrap_or_default()).at_line(path, 0)
+            }
+            MeshError::NoParts { path, .. } => Diagnostic::error(codes::UNKNOWN_PART, span, self.to_string())
+                .expected("an OBJ, glTF or GLB file, or no `part`")
+                .at_line(path, 0),
             MeshError::Arrays { expected, .. } => {
                 Diagnostic::error(codes::BROKEN_MESH, span, self.to_string()).expected(expected.clone())
             }

@@ -52,6 +52,11 @@ impl MeshFormat {
         Self::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 
+    /// Whether its files have parts with names.
+    pub const fn has_parts(self) -> bool {
+        matches!(self, MeshFormat::Obj | MeshFormat::Gltf | MeshFormat::Glb)
+    }
+
     /// All formats in words: `OBJ, OFF or STL`.
     pub(crate) fn list(word: impl Fn(MeshFormat) -> String) -> String {
         let words = Self::ALL.map(word);

@@ -36,6 +36,7 @@ mod mtl;
 mod obj;
 mod oddities;
 mod off;
+mod parts;
 mod ply;
 mod polygon;
 mod stl;
@@ -59,7 +60,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// When there is no such file, it cannot be read or has another extension, when it is broken (with the line or the
-/// byte), and when no triangle is left.
+/// byte), when it lacks a part that is wanted, and when no triangle is left.
 pub fn load(path: &Path) -> Result<MeshData, MeshError> {
     load_from(path, &Files::default())
 }
@@ -76,7 +77,7 @@ pub fn load_from(path: &Path, files: &Files) -> Result<MeshData, MeshError> {
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_as(path: &Path, files: &Files, wanted: Wanted) -> Result<MeshData, MeshError> {
+pub fn load_as(path: &Path, files: &Files, wanted: Wanted<'_>) -> Result<MeshData, MeshError> {
     let format = MeshFormat::of(path).ok_or_else(|| MeshError::UnknownFormat { path: path.to_owned() })?;
     match files.get(path) {
         Some(bytes) => parse_from(bytes, format, (path, files), wanted),
@@ -96,11 +97,19 @@ pub fn parse(text: &[u8], format: MeshFormat, path: &Path) -> Result<MeshData, M
 ///
 /// # Errors
 /// As [`load`].
-pub fn parse_as(text: &[u8], format: MeshFormat, path: &Path, wanted: Wanted) -> Result<MeshData, MeshError> {
+pub fn parse_as(text: &[u8], format: MeshFormat, path: &Path, wanted: Wanted<'_>) -> Result<MeshData, MeshError> {
     parse_from(text, format, (path, &Files::default()), wanted)
 }
 
-fn parse_from(text: &[u8], format: MeshFormat, from: (&Path, &Files), wanted: Wanted) -> Result<MeshData, MeshError> {
+fn parse_from(
+    text: &[u8],
+    format: MeshFormat,
+    from: (&Path, &Files),
+    wanted: Wanted<'_>,
+) -> Result<MeshData, MeshError> {
+    if wanted.part.is_some() && !format.has_parts() {
+        return Err(MeshError::NoParts { path: from.0.to_owned(), what: format!("{} files", format.name()) });
+    }
     match format {
         MeshFormat::Obj => obj::read(text, from, wanted),
         MeshFormat::Off => off::read(text, from.0, wanted),

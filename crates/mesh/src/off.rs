@@ -52,7 +52,7 @@ struct Counts {
 }
 
 /// Reads an OFF file.
-pub(super) fn read(text: &[u8], path: &Path, wanted: Wanted) -> Result<MeshData, MeshError> {
+pub(super) fn read(text: &[u8], path: &Path, wanted: Wanted<'_>) -> Result<MeshData, MeshError> {
     let cursor = Cursor::new(text, Blanks { comma: false, continuation: false });
     let mut reader = Reader { cursor, builder: Builder::default(), wanted };
     let counts = reader.read_all().map_err(|fault| MeshError::at_line(path, text, *fault))?;
@@ -64,7 +64,7 @@ pub(super) fn read(text: &[u8], path: &Path, wanted: Wanted) -> Result<MeshData,
 struct Reader<'a> {
     cursor: Cursor<'a>,
     builder: Builder,
-    wanted: Wanted,
+    wanted: Wanted<'a>,
 }
 
 impl Reader<'_> {

@@ -4,7 +4,7 @@ use base64::Engine;
 use std::path::Path;
 use tracer_mesh::{ColorValues, Files, MeshData, MeshError, MeshFormat, VertexColors, Wanted, parse, parse_as};
 
-const COLORS: Wanted = Wanted { colors: true };
+const COLORS: Wanted<'static> = Wanted { colors: true, part: None };
 
 fn read(format: MeshFormat, bytes: impl AsRef<[u8]>) -> Result<MeshData, MeshError> {
     parse_as(bytes.as_ref(), format, Path::new("m"), COLORS)

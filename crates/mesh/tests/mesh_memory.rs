@@ -219,13 +219,21 @@ fn memory_is_in_proportion_to_the_file() {
         ("OBJ triangles counted back", MeshFormat::Obj, repeated(square, "f -1 -2 -3\n")),
         ("OBJ polygons", MeshFormat::Obj, repeated(&nine, "f 1 2 3 4 5 6 7 8 9\n")),
         ("OBJ groups", MeshFormat::Obj, repeated(square, "usemtl a\n") + "f 1 2 3\n"),
+        ("OBJ objects", MeshFormat::Obj, repeated(square, "o a\no b\n") + "f 1 2 3\n"),
+        ("OBJ names of groups", MeshFormat::Obj, repeated(square, "g b c a\ng c\n") + "f 1 2 3\n"),
+        ("OBJ other groups", MeshFormat::Obj, repeated(square, "g b b b b b b b\n") + "f 1 2 3\n"),
+        ("OBJ triangles in and out of a part", MeshFormat::Obj, repeated(square, "o a\nf 1 2 3\no b\nf 1 2 3\n")),
         ("OBJ oddities", MeshFormat::Obj, repeated(square, "x\ny\n") + "f 1 2 3\n"),
     ];
     let files = files.map(|(what, format, text)| (what, format, text.into_bytes(), 9));
     for (what, format, text, times) in files.into_iter().chain(ply_files()).chain(stl_files()).chain(gltf_files()) {
         let peak = peak_of(|| {
-            let _ = parse_as(&text, format, Path::new("none/m"), Wanted { colors: true });
+            let _ = parse_as(&text, format, Path::new("none/m"), Wanted { colors: true, part: None });
         });
+        let of_part = peak_of(|| {
+            let _ = parse_as(&text, format, Path::new("none/m"), Wanted { colors: true, part: Some("a") });
+        });
+        let peak = peak.max(of_part);
         println!("{what}: {:.1} times {} bytes", peak as f64 / text.len() as f64, text.len());
         // The text itself is the tenth.
         assert!(peak <= times * text.len() + (1 << 20), "{what}: {peak} bytes for {}", text.len());

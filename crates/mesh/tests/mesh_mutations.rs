@@ -82,8 +82,12 @@ fn mutate_brittle(seed: u64, format: MeshFormat, original: impl AsRef<[u8]>, of:
     let count = mutants();
     let good = run(seed, count, original.as_ref(), |bytes| {
         let name = Path::new("none/m");
+        match parse_as(bytes, format, name, Wanted { colors: true, part: Some("a") }) {
+            Ok(mesh) => assert_whole(&mesh),
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
         // What is wrong with colours is wrong only where they are wanted.
-        match (parse_as(bytes, format, name, Wanted { colors: true }), parse(bytes, format, name)) {
+        match (parse_as(bytes, format, name, Wanted { colors: true, part: None }), parse(bytes, format, name)) {
             (Ok(mesh), Ok(without)) => {
                 assert_whole(&mesh);
                 assert_whole(&without);

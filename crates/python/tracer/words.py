@@ -1268,10 +1268,10 @@ class _TubeRequired(TypedDict):
 class Tube(_TubeRequired, total=False):
     """What a ball passes over as it goes along a path: a cable, a spring, a tree's branch, a knot. It is closed: its ends are round, and so are its elbows where the points are joined by straight lines; a ball that swallows others is round, too. It is made of triangles, shaded as round. Where the path bends tighter than the radius, an elbow has less room than its inner side takes, or the path turns straight back, it passes through itself, which shows in glass and in the `power` of a light only. Texture coordinates: u goes round, v from 0 to 1 by length along it, round ends and the outer side of elbows included.
 
-    points: Two or more points that the middle of the ball passes, three or more of a closed one. Of points that repeat the last one, or at the end of a closed one the first, one is left, with the largest radius. Unit: the scene's unit.
-    radius: The ball's radius, or one for each point; between them it changes evenly, and smoothly with `curve: CatmullRom`. Unit: the scene's unit.
+    points: Two or more points that the middle of the ball passes, three or more of a closed one; with `curve: Bezier` each but the last is followed by two handles. Of points that repeat the last one, or at the end of a closed one the first, one is left, with the largest radius. Unit: the scene's unit.
+    radius: The ball's radius, or one for each point that is passed (handles have none); between them it changes evenly, smoothly where the curve is not `Linear`. Unit: the scene's unit.
     curve: How the points are joined.
-    closed: Whether the path goes on from the last point to the first.
+    closed: Whether the path goes on from the last point to the first. That of a closed one with `curve: Bezier` is written to its end: the last point is the first once more.
     segments: How many flat pieces go round; curves of the path are as fine.
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last. Turns and scales without `about` are about the middle of its bounds.
@@ -1280,7 +1280,7 @@ class Tube(_TubeRequired, total=False):
     name: What it is called: `--set objects.NAME.segments=64` finds it where no other has this name.
     """
 
-    curve: Either[Curve, PickItem]
+    curve: Either[TubeCurve, PickItem]
     closed: Either[bool, str, PickItem]
     segments: Either[int, str, PickItem]
     material: Either[str, Material, PickItem]
@@ -1289,6 +1289,8 @@ class Tube(_TubeRequired, total=False):
     camera_visible: Either[bool, str, PickItem]
     name: Any
 
+
+TubeCurve = Literal["CatmullRom", "Linear", "Bezier"]
 
 class _TorusRequired(TypedDict):
     radius: Either[float, str, PickItem]
@@ -1411,6 +1413,7 @@ class Mesh(TypedDict, total=False):
     """A triangle mesh, from a file or written out as `points` and `faces`.
 
     file: OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes place them, and the colours of its vertices where a `VertexColor` reads them; its materials, lights, cameras, skins, morph targets and animations are not.
+    part: With `file`: only this part of it, as if the file held nothing else. In OBJ the faces of objects (`o`) and groups (`g`) of this name, in glTF nodes, with all that is below them, and meshes of this name; all of them where several have it. It stays where the file has it. Other formats have no parts.
     points: Instead of a file: the points of the mesh, three or more. Unit: the scene's unit.
     faces: With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen from outside. Faces of more than three corners are cut into triangles, also where they are not convex.
     colors: With `points`: a colour for each of them, which a `VertexColor` of the material shows.
@@ -1424,6 +1427,7 @@ class Mesh(TypedDict, total=False):
     """
 
     file: File
+    part: Any
     points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
     faces: Either[Sequence[Either[Sequence[Either[int, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
     colors: Either[Sequence[Either[float, Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]

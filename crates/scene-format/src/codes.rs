@@ -418,6 +418,14 @@ codes! {
     /// here: most often compression (`KHR_draco_mesh_compression`, `EXT_meshopt_compression`). Export the mesh again
     /// without it.
     GLTF_EXTENSION "E0513" "a glTF file requires an extension";
+    /// The `part` of a `Mesh` is none of its file: an OBJ file has no object (`o`) and no group (`g`) of this name, or
+    /// the scene of a glTF file has no node and no mesh; or the file is PLY, STL or OFF, whose files have no parts.
+    /// Case counts. The message lists the names that there are.
+    ///
+    /// ```text
+    /// Scene(background: 1, objects: [Mesh(file: "car.obj", part: "whel")])
+    /// ```
+    UNKNOWN_PART "E0514" "a part that a mesh file does not have";
     /// A material shows the colours of vertices (`VertexColor`), and the object that has it has none: it is no `Mesh`,
     /// its file has no colours, or it has `points` without `colors`. Of files OBJ (`v x y z r g b`), OFF, PLY and glTF
     /// may have colours, STL cannot.

@@ -8,7 +8,7 @@ use crate::desc::{
 };
 use crate::desc::{
     BackgroundWords, DepthOfField, FisheyeMapping, FovAxis, ITEMS, MappingWords, PatternWords, PlacementPattern,
-    Projection, StereoLayout, Stereoscopy, TransformWords,
+    Projection, StereoLayout, Stereoscopy, TransformWords, TubeCurve,
 };
 use crate::schema::EnumDef;
 
@@ -51,7 +51,7 @@ const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("s
 const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 38] = [
+pub(crate) const CHOICES: [&EnumDef; 39] = [
     &Projection::DEF,
     &FovAxis::DEF,
     &FisheyeMapping::DEF,
@@ -86,6 +86,7 @@ pub(crate) const CHOICES: [&EnumDef; 38] = [
     &VertexColorSpace::DEF,
     &RampInterpolation::DEF,
     &Curve::DEF,
+    &TubeCurve::DEF,
     &Instances::DEF,
     &Shading::DEF,
     &TransformWords::DEF,
@@ -94,7 +95,7 @@ pub(crate) const CHOICES: [&EnumDef; 38] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 148] = [
+const SNIPPETS: [(&str, &str, &str); 151] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -307,6 +308,9 @@ const SNIPPETS: [(&str, &str, &str); 148] = [
     ),
     ("Curve", "Linear", "curve: Linear"),
     ("Curve", "CatmullRom", "curve: CatmullRom"),
+    ("TubeCurve", "CatmullRom", "radius: 0.15, curve: CatmullRom"),
+    ("TubeCurve", "Linear", "radius: 0.15, curve: Linear"),
+    ("TubeCurve", "Bezier", "radius: 0.15, curve: Bezier"),
     ("Instances", "Auto", "instances: Auto"),
     ("Instances", "Always", "instances: Always"),
     ("Instances", "Never", "instances: Never"),
@@ -389,6 +393,10 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
             };
         }
         "Curve" => object = format!("Lathe(profile: [(0, -1), (1, -0.5), (0.5, 0.5), (0, 1)], {words})"),
+        "TubeCurve" => {
+            let points = "[(-1, -0.5, 0), (-0.6, 1, 0), (0.6, -1, 0), (1, 0.5, 0)]";
+            object = format!("Tube(points: {points}, {words})");
+        }
         "Instances" => {
             object = mesh(&format!("placements: [[], [Translate((1, 0, 0))]], {words}"));
             files = &[TETRAHEDRON];

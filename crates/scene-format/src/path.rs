@@ -1,5 +1,9 @@
 //! Points of a plane joined by straight lines or by a curve, cut into straight pieces that know the curve's directions.
 
+mod bezier;
+
+pub use bezier::bezier_pieces;
+
 /// A point of the plane.
 pub type Point = [f64; 2];
 

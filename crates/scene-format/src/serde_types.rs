@@ -84,6 +84,7 @@ of_words![
     Torus,
     Arrow,
     Curve,
+    TubeCurve,
     Mesh,
     Union,
     Intersection,

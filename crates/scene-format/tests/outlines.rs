@@ -61,6 +61,12 @@ fn faults_of_all_shapes_come_in_one_run() {
         ("Tube(points: [(3, 0, 0), (3, 0, 0)], radius: 7)", "E0542", "[(3, 0, 0), (3, 0, 0)]", "no extent"),
         ("Tube(points: [(0, 0, 0), (9, 0, 0)], radius: [1, 2, 3])", "E0206", "[1, 2, 3]", "2 points and 3 radii"),
         (
+            "Tube(points: [(0, 0, 0), (5, 0, 0), (5, 1, 0)], radius: 1, curve: Bezier)",
+            "E0206",
+            "[(0, 0, 0), (5, 0, 0), (5, 1, 0)]",
+            "ends within a span: it has 3 points",
+        ),
+        (
             "Tube(points: [(0, 0, 0), (8, 0, 0)], radius: 1, closed: true)",
             "E0542",
             "[(0, 0, 0), (8, 0, 0)]",

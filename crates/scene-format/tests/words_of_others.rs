@@ -236,6 +236,9 @@ fn fields_of_patterns() {
 #[test]
 fn fields_of_shapes() {
     let outline = "outline: [[(0, 0), (1, 0), (0, 1)]]";
+    let tube = |curve: &str| {
+        format!("Tube(points: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0)], radius: 0.1, curve: {curve})")
+    };
     let cases = [
         (format!("Extrude({outline}, height: 1)"), "did you mean `depth`?"),
         (format!("Extrude({outline}, depth: 1, holes: [1])"), "holes are rings of the `outline`"),
@@ -252,6 +255,14 @@ fn fields_of_shapes() {
         ("Lathe(profile: [(0, 0), (1, 1)], curve: cubic_spline)".to_owned(), "did you mean `CatmullRom`?"),
         ("Lathe(profile: [(0, 0), (1, 1)], curve: linear_spline)".to_owned(), "did you mean `Linear`?"),
         ("Lathe(profile: [(0, 0), (1, 1)], curve: Bezier)".to_owned(), "no control points"),
+        ("Mesh(file: \"a.obj\", submesh: \"wheel\")".to_owned(), "did you mean `part`?"),
+        (tube("bezier_spline"), "did you mean `Bezier`?"),
+        (tube("cubic_spline"), "did you mean `CatmullRom`?"),
+        (tube("linear_spline"), "did you mean `Linear`?"),
+        (tube("b_spline"), "or make it `Bezier`"),
+        (tube("hermite"), "a third of the tangents"),
+        (tube("Linear, bezier: true"), "its `curve`"),
+        (tube("Bezier, handles: [(0, 0, 0)]"), "among the `points`"),
         ("Lathe(profile: [(0, 0), (1, 1)], curve: \"cubic_spline\")".to_owned(), "write CatmullRom"),
         ("Polygon(points: [(0, 0), (1, 0), (0, 1)])".to_owned(), ""),
         ("Lathe(profile: [(0, 0, 0), (1, 1, 0)])".to_owned(), ""),

@@ -144,6 +144,12 @@ impl<'a> Document<'a> {
         named.and_then(|named| named.name).unwrap_or_else(|| format!("materials[{index}]"))
     }
 
+    /// The name of an element of a list, where it has one.
+    pub(super) fn name_of(&self, list: List, index: u32) -> Option<String> {
+        let named: Named = serde_json::from_str(self.list(list).get(index as usize)?.get()).ok()?;
+        named.name
+    }
+
     /// An element of a list, named at a byte.
     pub(super) fn element<T: Deserialize<'a>>(
         &self,

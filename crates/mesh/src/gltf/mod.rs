@@ -4,6 +4,7 @@
 //! - The default scene; without one the first, without scenes all nodes that are nobody's children, without nodes all
 //!   meshes. Nodes with `matrix` or translation, rotation and scale; a mirrored node's triangles are wound the other
 //!   way, as the specification asks.
+//! - A part that is wanted alone is a node with all that is below it, or a mesh wherever it stands, by its name.
 //! - Triangles, strips and fans; `POSITION`, `NORMAL`, `TEXCOORD_0` (its v runs downwards, ours upwards), indices;
 //!   accessors of all types, interleaved, sparse, normalized. Buffers: of the container, `data:` URIs, files beside the
 //!   mesh.
@@ -26,6 +27,7 @@ use super::data::MeshData;
 use super::error::MeshError;
 use super::files::Files;
 use super::oddities::Oddity;
+use super::parts;
 use accessor::Buffers;
 use document::{Document, EXPECTED};
 use scene_format::Diagnostic;
@@ -45,7 +47,7 @@ const OF_LOOKS: [&str; 5] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "
 const NAMES: usize = 8;
 
 /// Reads a glTF file; its content tells which of the two forms it has.
-pub(super) fn read(bytes: &[u8], (path, files): (&Path, &Files), wanted: Wanted) -> Result<MeshData, MeshError> {
+pub(super) fn read(bytes: &[u8], (path, files): (&Path, &Files), wanted: Wanted<'_>) -> Result<MeshData, MeshError> {
     let is_container = bytes.starts_with(b"glTF");
     let parts = if is_container {
         Parts::of_container(bytes).map_err(|fault| MeshError::at_byte(path, *fault))?
@@ -71,10 +73,14 @@ pub(super) fn read(bytes: &[u8], (path, files): (&Path, &Files), wanted: Wanted)
     let mut buffers = Buffers::new(&document, (path, files), parts.binary, bytes.len() as u64);
     let mut walk = Walk::new(&document, &mut builder, &mut buffers, wanted);
     walk.all().map_err(told)?;
+    if let (Some(part), Some(names)) = (wanted.part, walk.names_without_part()) {
+        return Err(parts::unknown(path, part, names, "nodes and meshes"));
+    }
     let walk::Found { meshes, morphs, materials, uvs } = walk.found;
     let libraries = buffers.files();
     builder.mesh.uv_triangles = uvs;
-    let found = format!("the scene of the file has {meshes} {}", if meshes == 1 { "mesh" } else { "meshes" });
+    let whole = wanted.part.map_or("scene of the file".to_owned(), |part| format!("part {}", shown(part.as_bytes())));
+    let found = format!("the {whole} has {meshes} {}", if meshes == 1 { "mesh" } else { "meshes" });
     let mut mesh = builder.finish(path, &found)?;
     mesh.libraries = libraries;
     mesh.warnings.extend(of_materials(&document, &materials, path));

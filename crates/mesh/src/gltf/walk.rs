@@ -90,11 +90,52 @@ struct Siblings {
     parent: DAffine3,
     /// Where the parent stands, which names them.
     named_at: usize,
+    /// Whether the parent, or one above it, is the part that is wanted.
+    in_part: bool,
 }
 
 impl Siblings {
-    fn new(nodes: Vec<u32>, parent: DAffine3, named_at: usize) -> Siblings {
-        Siblings { nodes: nodes.into_iter(), parent, named_at }
+    fn new(nodes: Vec<u32>, parent: DAffine3, named_at: usize, in_part: bool) -> Siblings {
+        Siblings { nodes: nodes.into_iter(), parent, named_at, in_part }
+    }
+}
+
+/// The part that is wanted.
+struct Part<'n> {
+    name: &'n str,
+    /// Of each mesh its name, until it is met in the scene, and whether it is of the part.
+    meshes: Vec<(Option<String>, bool)>,
+    /// Names of nodes and meshes that were met.
+    names: Vec<String>,
+    is_there: bool,
+}
+
+impl<'n> Part<'n> {
+    fn new(document: &Document<'_>, name: &'n str) -> Part<'n> {
+        let of_mesh = |mesh: u32| {
+            let named = document.name_of(List::Meshes, mesh);
+            let is_part = named.as_deref() == Some(name);
+            (named, is_part)
+        };
+        let meshes = (0..document.count(List::Meshes) as u32).map(of_mesh).collect();
+        Part { name, meshes, names: Vec::new(), is_there: false }
+    }
+
+    /// Whether a node of the scene is the part.
+    fn is_of_node(&mut self, name: Option<String>) -> bool {
+        let is_part = name.as_deref() == Some(self.name);
+        self.names.extend(name);
+        self.is_there |= is_part;
+        is_part
+    }
+
+    /// Whether a mesh of the scene is the part.
+    fn is_of_mesh(&mut self, index: u32) -> bool {
+        // The mesh that there is not is told by who reads it.
+        let Some((name, is_part)) = self.meshes.get_mut(index as usize) else { return true };
+        self.names.extend(name.take());
+        self.is_there |= *is_part;
+        *is_part
     }
 }
 
@@ -133,7 +174,9 @@ pub(super) struct Walk<'w, 'a> {
     document: &'a Document<'a>,
     builder: &'w mut Builder,
     buffers: &'w mut Buffers<'a>,
-    wanted: Wanted,
+    /// Whether colours of vertices are.
+    wants_colors: bool,
+    part: Option<Part<'w>>,
     stretches: Vec<Stretch>,
     pub(super) found: Found,
 }
@@ -143,10 +186,18 @@ impl<'w, 'a> Walk<'w, 'a> {
         document: &'a Document<'a>,
         builder: &'w mut Builder,
         buffers: &'w mut Buffers<'a>,
-        wanted: Wanted,
+        wanted: Wanted<'w>,
     ) -> Self {
         builder.colors_are = (1.0, false);
-        Walk { document, builder, buffers, wanted, stretches: Vec::new(), found: Found::default() }
+        let part = wanted.part.map(|name| Part::new(document, name));
+        let (stretches, found) = (Vec::new(), Found::default());
+        Walk { document, builder, buffers, wants_colors: wanted.colors, part, stretches, found }
+    }
+
+    /// The names of the scene's nodes and meshes, where a part is wanted and the scene has none of this name.
+    pub(super) fn names_without_part(&self) -> Option<impl Iterator<Item = &str>> {
+        let part = self.part.as_ref().filter(|part| !part.is_there)?;
+        Some(part.names.iter().map(String::as_str))
     }
 
     /// Brings all meshes of the default scene.
@@ -156,18 +207,18 @@ impl<'w, 'a> Walk<'w, 'a> {
         match (self.document.scene(), self.document.count(List::Scenes)) {
             (None, 0) if visited.is_empty() => {
                 for mesh in 0..self.document.count(List::Meshes) as u32 {
-                    self.mesh(mesh, 0, DAffine3::IDENTITY)?;
+                    self.mesh(mesh, 0, DAffine3::IDENTITY, false)?;
                 }
             }
-            (None, 0) => open.push(Siblings::new(self.roots()?, DAffine3::IDENTITY, 0)),
+            (None, 0) => open.push(Siblings::new(self.roots()?, DAffine3::IDENTITY, 0, false)),
             (scene, _) => {
                 let Element { value, at } =
                     self.document.element::<Scene>(List::Scenes, scene.unwrap_or_default(), 0)?;
-                open.push(Siblings::new(value.nodes, DAffine3::IDENTITY, at));
+                open.push(Siblings::new(value.nodes, DAffine3::IDENTITY, at, false));
             }
         }
-        while let Some(Siblings { nodes, parent, named_at }) = open.last_mut() {
-            let (parent, named_at) = (*parent, *named_at);
+        while let Some(Siblings { nodes, parent, named_at, in_part }) = open.last_mut() {
+            let (parent, named_at, in_part) = (*parent, *named_at, *in_part);
             let Some(node) = nodes.next() else {
                 open.pop();
                 continue;
@@ -185,10 +236,13 @@ impl<'w, 'a> Walk<'w, 'a> {
                 let message = format!("the matrices down to {} leave the range of numbers", List::Nodes.shown(node));
                 return Err(Fault::new(at, message, "finite numbers"));
             }
+            // A name that is no text is no fault of those who do not ask for it.
+            let name = || self.document.name_of(List::Nodes, node);
+            let in_part = in_part || self.part.as_mut().is_some_and(|part| part.is_of_node(name()));
             if let Some(mesh) = value.mesh {
-                self.mesh(mesh, at, map)?;
+                self.mesh(mesh, at, map, in_part)?;
             }
-            open.push(Siblings::new(value.children, map, at));
+            open.push(Siblings::new(value.children, map, at, in_part));
         }
         self.finish_uvs();
         Ok(())
@@ -209,7 +263,11 @@ impl<'w, 'a> Walk<'w, 'a> {
         Ok((0..).zip(root).filter_map(|(node, root)| root.then_some(node)).collect())
     }
 
-    fn mesh(&mut self, index: u32, named_at: usize, map: DAffine3) -> Result<(), Box<Fault>> {
+    /// Brings a mesh. `in_part`: its node, or one above that, is the part that is wanted.
+    fn mesh(&mut self, index: u32, named_at: usize, map: DAffine3, in_part: bool) -> Result<(), Box<Fault>> {
+        if self.part.as_mut().is_some_and(|part| !part.is_of_mesh(index) && !in_part) {
+            return Ok(());
+        }
         let Element { value: Mesh { primitives }, at } = self.document.element(List::Meshes, index, named_at)?;
         self.found.meshes += 1;
         let placed = Placed::new(map);
@@ -246,7 +304,7 @@ impl<'w, 'a> Walk<'w, 'a> {
             return Ok(());
         };
         self.found.morphs += u64::from(!primitive.targets.is_empty());
-        let color = attributes.color.filter(|_| self.wanted.colors);
+        let color = attributes.color.filter(|_| self.wants_colors);
         let key = [Some(position), attributes.normal, attributes.uv, color].map(|of| of.unwrap_or(NO_INDEX));
         let vertices = match known.get(&key) {
             Some(&vertices) => vertices,
@@ -274,7 +332,7 @@ impl<'w, 'a> Walk<'w, 'a> {
             let count = (end - first) as u64;
             self.stretches.push(Stretch { end, uv: attributes.uv.is_some() });
             self.found.materials.extend(primitive.material);
-            if attributes.color.is_some() && !self.wanted.colors {
+            if attributes.color.is_some() && !self.wants_colors {
                 self.builder.oddities.add_many(Oddity::VertexColor, u64::from(vertices.count));
             }
             if attributes.normal.is_none() {
@@ -333,7 +391,7 @@ impl<'w, 'a> Walk<'w, 'a> {
                 self.builder.add_uv([u, 1.0 - v], uvs.at)?;
             }
         }
-        if let Some(color) = attributes.color.filter(|_| self.wanted.colors) {
+        if let Some(color) = attributes.color.filter(|_| self.wants_colors) {
             self.buffers.spend(12 * positions.count as u64, at)?;
             if self.buffers.are_fours(color, at)? {
                 let colors = self.buffers.values::<4>(color, at, "COLOR_0")?;

@@ -1,17 +1,18 @@
 //! Joins the pieces of an OBJ file: resolves indices, cuts polygons, gives triangles their materials.
 
-use super::piece::{FoundCorner, Piece, RawIndex};
+use super::piece::{FoundCorner, PartSwitch, Piece, RawIndex};
 use super::{MOST, Oddities, Oddity};
 use crate::coloring::{NO_COLOR, settled};
-use crate::colors::VertexColors;
 use crate::cursor::{Fault, shown};
 use crate::data::{MeshData, MtlNames, NO_INDEX};
 use crate::error::MeshError;
 use crate::files::Files;
 use crate::mtl;
+use crate::parts::{keep_numbered, number_anew, numbers_of_named};
 use crate::polygon::{PolygonCutter, TooIntricate, is_degenerate};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
 
 /// How many elements lie before a piece, or in all pieces.
@@ -69,6 +70,8 @@ pub(super) struct Assembly<'a> {
     pieces: Vec<Piece<'a>>,
     before: Vec<Elements>,
     total: Elements,
+    /// Whether faces were left out, and so what only they name is.
+    is_part: bool,
 }
 
 impl<'a> Assembly<'a> {
@@ -86,20 +89,46 @@ impl<'a> Assembly<'a> {
                 return Err(Fault::new(piece.range.start, message, format!("fewer than {MOST} of each")));
             }
         }
-        Ok(Assembly { pieces, before, total })
+        Ok(Assembly { pieces, before, total, is_part: false })
+    }
+
+    /// Leaves the faces of the part that is wanted alone; whether there is such a part.
+    pub(super) fn keep_part(&mut self) -> bool {
+        self.is_part = true;
+        let mut is_there = false;
+        // Whether faces are in it by their object, and by their groups: before the first `o` and `g` they are not.
+        let (mut by_object, mut by_group) = (false, false);
+        for piece in &mut self.pieces {
+            let mut kept: Vec<Range<usize>> = Vec::new();
+            let mut first = 0;
+            let ends = piece.part_switches.iter().map(|switch| (switch.first_face as usize, Some(*switch)));
+            for (end, next) in ends.chain([(piece.face_ends.len(), None)]) {
+                if (by_object || by_group) && first < end {
+                    kept.push(first..end);
+                }
+                first = end;
+                if let Some(PartSwitch { is_object, is_part, .. }) = next {
+                    is_there |= is_part;
+                    *if is_object { &mut by_object } else { &mut by_group } = is_part;
+                }
+            }
+            piece.keep_faces(&kept);
+        }
+        is_there
     }
 
     /// The whole mesh, with the warning about its materials but without that of `oddities`.
+    // Long: one step after the other, each with what those before it have left.
     pub(super) fn into_mesh(
         mut self,
         text: &'a [u8],
         (path, files): (&Path, &Files),
         oddities: &mut Oddities,
     ) -> Result<MeshData, MeshError> {
-        let colors = self.take_colors(oddities);
-        let positions = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.positions)).collect());
-        let normals = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.normals)).collect());
-        let uvs = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.uvs)).collect());
+        let mut colors = self.take_colors();
+        let mut positions = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.positions)).collect());
+        let mut normals = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.normals)).collect());
+        let mut uvs = join(self.pieces.iter_mut().map(|piece| std::mem::take(&mut piece.uvs)).collect());
         let names = self.used_names();
         let runs: Vec<Vec<MaterialRun>> = self.material_runs(&names);
         let lookup = Lookup {
@@ -118,10 +147,10 @@ impl<'a> Assembly<'a> {
                 triangles
             })
             .collect();
-        if !lookup.any_uv {
+        if !lookup.any_uv && !self.is_part {
             oddities.add_many(Oddity::UnusedUvs, self.total.uvs as u64);
         }
-        if !lookup.any_normal {
+        if !lookup.any_normal && !self.is_part {
             oddities.add_many(Oddity::UnusedNormals, self.total.normals as u64);
         }
         let mut good = Vec::with_capacity(parts.len());
@@ -132,21 +161,27 @@ impl<'a> Assembly<'a> {
         }
         let libraries: Vec<&str> = self.pieces.iter().flat_map(|piece| piece.libraries.iter().copied()).collect();
         drop(self.pieces);
+        let is_part = self.is_part;
 
         let mut take = |field: fn(&mut Triangles) -> &mut Vec<[u32; 3]>| {
             join(good.iter_mut().map(|part| std::mem::take(field(part))).collect())
         };
-        let triangles = take(|part| &mut part.positions);
-        let normals = without_needless_indices(normals, take(|part| &mut part.normals), &triangles, positions.len());
-        let uvs = without_needless_indices(uvs, take(|part| &mut part.uvs), &triangles, positions.len());
+        let mut triangles = take(|part| &mut part.positions);
+        let (mut normal_triangles, mut uv_triangles) = (take(|part| &mut part.normals), take(|part| &mut part.uvs));
+        if is_part {
+            keep_named_vertices((&mut positions, &mut colors), &mut triangles);
+            keep_named(&mut normals, &mut normal_triangles);
+            keep_named(&mut uvs, &mut uv_triangles);
+        }
+        let colors = settled(colors, positions.len(), 1.0, true, oddities);
+        let normals = without_needless_indices(normals, normal_triangles, &triangles, positions.len());
+        let uvs = without_needless_indices(uvs, uv_triangles, &triangles, positions.len());
 
         let materials = mtl::load(&libraries, &names, path, files)?;
+        let used = materials.defined(&names).map(|(name, is_defined)| (name.to_owned(), is_defined)).collect();
         let mtl = match names.is_empty() {
             true => MtlNames::default(),
-            false => MtlNames {
-                libraries: libraries.iter().map(|&name| name.to_owned()).collect(),
-                used: materials.defined(&names).map(|(name, is_defined)| (name.to_owned(), is_defined)).collect(),
-            },
+            false => MtlNames { libraries: libraries.iter().map(|&name| name.to_owned()).collect(), used },
         };
         let mut triangle_material = join(good.into_iter().map(|part| part.materials).collect());
         if materials.materials.is_empty() {
@@ -171,18 +206,17 @@ impl<'a> Assembly<'a> {
         })
     }
 
-    /// The colours of all vertices, if any has one.
-    fn take_colors(&mut self, oddities: &mut Oddities) -> Option<VertexColors> {
+    /// What the file says of the colours of all vertices, if any has one.
+    fn take_colors(&mut self) -> Vec<[f32; 3]> {
         if self.pieces.iter().all(|piece| piece.colors.is_empty()) {
-            return None;
+            return Vec::new();
         }
         let of_piece = |piece: &mut Piece| {
             let mut colors = std::mem::take(&mut piece.colors);
             colors.resize(piece.positions.len(), NO_COLOR);
             colors
         };
-        let raw = join(self.pieces.iter_mut().map(of_piece).collect());
-        settled(raw, self.total.positions, 1.0, true, oddities)
+        join(self.pieces.iter_mut().map(of_piece).collect())
     }
 
     /// The names of materials that faces use, in the order of first use.
@@ -358,6 +392,24 @@ fn resolve(raw: &[RawIndex], before: usize, total: usize, indices: &mut Vec<u32>
 struct Indexed<T> {
     values: Vec<T>,
     triangles: Option<Vec<[u32; 3]>>,
+}
+
+/// Leaves the vertices that corners name; no colours where none of these has one.
+fn keep_named_vertices((positions, colors): (&mut Vec<[f64; 3]>, &mut Vec<[f32; 3]>), triangles: &mut [[u32; 3]]) {
+    let numbers = numbers_of_named(positions.len(), triangles);
+    keep_numbered(positions, &numbers);
+    keep_numbered(colors, &numbers);
+    number_anew(triangles, &numbers);
+    if colors.iter().all(|color| color.iter().any(|x| x.is_nan())) {
+        colors.clear();
+    }
+}
+
+/// Leaves the values that corners name.
+fn keep_named<T>(values: &mut Vec<T>, corners: &mut [[u32; 3]]) {
+    let numbers = numbers_of_named(values.len(), corners);
+    keep_numbered(values, &numbers);
+    number_anew(corners, &numbers);
 }
 
 /// Drops values that no corner names, and indices that are those of the positions.

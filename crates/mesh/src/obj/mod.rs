@@ -5,7 +5,9 @@
 //!   numbers; `vn`.
 //! - `f` (and the old `fo`) in all forms of corners: `1`, `1/2`, `1//3`, `1/2/3`, counted from 1, or back from here if
 //!   negative. Faces may name vertices that come later in the file.
-//! - `mtllib` and `usemtl`; `g`, `o` and `s` are read over: normals come from `vn` alone.
+//! - `mtllib` and `usemtl`; `s` is read over: normals come from `vn` alone. `o` and `g` name parts, of which one may be
+//!   wanted alone: `o` says which object the faces after it are of, until the next `o`, and `g` which groups they are
+//!   in, one or several, until the next `g`.
 //! - `l`, `p` and all other statements are counted in one warning.
 //! - A backslash at the end of a line goes on in the next one.
 //!
@@ -16,13 +18,14 @@ mod assemble;
 mod piece;
 
 use super::colors::Wanted;
-use super::cursor::Fault;
+use super::cursor::{Fault, shown};
 use super::data::MeshData;
 use super::error::MeshError;
 use super::files::Files;
 use super::oddities::{Oddities, Oddity};
+use super::parts;
 use assemble::Assembly;
-use piece::Piece;
+use piece::{Piece, names_of_parts};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -33,14 +36,14 @@ const PIECE: usize = 1 << 20;
 const MOST: usize = 1 << 31;
 
 /// Reads an OBJ file.
-pub(super) fn read(text: &[u8], from: (&Path, &Files), wanted: Wanted) -> Result<MeshData, MeshError> {
+pub(super) fn read(text: &[u8], from: (&Path, &Files), wanted: Wanted<'_>) -> Result<MeshData, MeshError> {
     read_in_pieces(text, from, wanted, PIECE)
 }
 
 fn read_in_pieces(
     text: &[u8],
     (path, files): (&Path, &Files),
-    wanted: Wanted,
+    wanted: Wanted<'_>,
     piece_bytes: usize,
 ) -> Result<MeshData, MeshError> {
     if let Some(fault) = foreign_encoding(text) {
@@ -57,11 +60,24 @@ fn read_in_pieces(
         oddities.merge(std::mem::take(&mut piece.oddities));
         good.push(piece);
     }
-    let assembly = Assembly::new(good).map_err(|fault| MeshError::at_line(path, text, *fault))?;
+    let mut assembly = Assembly::new(good).map_err(|fault| MeshError::at_line(path, text, *fault))?;
+    if let Some(part) = wanted.part
+        && !assembly.keep_part()
+    {
+        return Err(parts::unknown(path, part, names_of_parts(text), "objects and groups"));
+    }
     let mesh = assembly.into_mesh(text, (path, files), &mut oddities)?;
     if mesh.triangles.is_empty() {
         let odd = oddities.summary();
         let hint = match mesh.positions.len() {
+            _ if let Some(part) = wanted.part => {
+                let part = shown(part.as_bytes());
+                if odd.is_empty() {
+                    format!("the part {part} has no faces (`f`)")
+                } else {
+                    format!("the part {part}; {odd}")
+                }
+            }
             0 if odd.is_empty() => "the file has no vertices (`v`)".to_owned(),
             0 => format!("the file has no vertices (`v`); is it an OBJ file? {odd}"),
             count if odd.is_empty() => format!("the file has {count} vertices and no faces (`f`)"),

@@ -62,6 +62,16 @@ pub(super) struct MaterialSwitch<'a> {
     pub(super) name: &'a str,
 }
 
+/// From `o` or `g` on, faces are in the wanted part by it, or are not.
+#[derive(Clone, Copy)]
+pub(super) struct PartSwitch {
+    /// Number of the first face, counted in the piece.
+    pub(super) first_face: u32,
+    /// It says which object faces are of, not which groups.
+    pub(super) is_object: bool,
+    pub(super) is_part: bool,
+}
+
 /// What a piece says.
 #[derive(Default)]
 pub(super) struct Piece<'a> {
@@ -82,6 +92,10 @@ pub(super) struct Piece<'a> {
     /// Where each face's corners end.
     pub(super) face_ends: Vec<u32>,
     pub(super) switches: Vec<MaterialSwitch<'a>>,
+    /// Where a part is wanted: the statements that change whether faces are in it.
+    pub(super) part_switches: Vec<PartSwitch>,
+    /// Where a part is wanted: which of the faces of the text are left.
+    face_numbers: Option<Vec<u32>>,
     pub(super) libraries: Vec<&'a str>,
     pub(super) oddities: Oddities,
     /// The first fault; nothing after it was parsed. It counts bytes in the file.
@@ -91,7 +105,7 @@ pub(super) struct Piece<'a> {
 impl<'a> Piece<'a> {
     /// Parses a part of the file that holds whole statements.
     #[expect(clippy::indexing_slicing, reason = "the range is one of the text's own parts")]
-    pub(super) fn parse(text: &'a [u8], range: Range<usize>, wanted: Wanted) -> Piece<'a> {
+    pub(super) fn parse(text: &'a [u8], range: Range<usize>, wanted: Wanted<'_>) -> Piece<'a> {
         let mut piece = Piece { range: range.clone(), ..Piece::default() };
         let mut cursor = Cursor::new(&text[range.clone()], OBJ_BLANKS);
         if let Err(mut fault) = piece.parse_statements(&mut cursor, wanted) {
@@ -120,7 +134,7 @@ impl<'a> Piece<'a> {
         self.face_ends = Vec::new();
     }
 
-    fn parse_statements(&mut self, cursor: &mut Cursor<'a>, wanted: Wanted) -> Result<(), Box<Fault>> {
+    fn parse_statements(&mut self, cursor: &mut Cursor<'a>, wanted: Wanted<'_>) -> Result<(), Box<Fault>> {
         while cursor.find_statement() {
             match cursor.word() {
                 b"v" => self.parse_vertex(cursor, wanted)?,
@@ -132,7 +146,12 @@ impl<'a> Piece<'a> {
                     self.switches.push(MaterialSwitch { first_face: self.face_ends.len(), name });
                 }
                 b"mtllib" => self.libraries.push(parse_name(cursor, "the name of an MTL file: `mtllib FILE.mtl`")?),
-                b"g" | b"o" | b"s" => {}
+                word @ (b"g" | b"o") => {
+                    if let Some(part) = wanted.part {
+                        self.enter(word == b"o", cursor.name(), part);
+                    }
+                }
+                b"s" => {}
                 b"l" => self.oddities.add(Oddity::LineElement),
                 b"p" => self.oddities.add(Oddity::PointElement),
                 word => self.oddities.add_statement(word),
@@ -142,7 +161,48 @@ impl<'a> Piece<'a> {
         Ok(())
     }
 
-    fn parse_vertex(&mut self, cursor: &mut Cursor, wanted: Wanted) -> Result<(), Box<Fault>> {
+    /// Faces that follow are of an object, or in groups, of this name.
+    fn enter(&mut self, is_object: bool, name: &[u8], part: &str) {
+        let is_part = is_named(is_object, name, part);
+        let last = self.part_switches.iter().rev().take(2).find(|switch| switch.is_object == is_object);
+        if last.is_none_or(|last| last.is_part != is_part) {
+            self.part_switches.push(PartSwitch { first_face: self.face_ends.len() as u32, is_object, is_part });
+        }
+    }
+
+    /// Leaves the faces in these ranges alone; they are in order.
+    #[expect(clippy::indexing_slicing, reason = "ranges of the piece's faces, which end within its corners")]
+    pub(super) fn keep_faces(&mut self, kept: &[Range<usize>]) {
+        let numbers: Vec<u32> = kept.iter().flat_map(|run| run.start as u32..run.end as u32).collect();
+        let begin = |face: usize| face.checked_sub(1).map_or(0, |last| self.face_ends[last] as usize);
+        let mut face_ends = Vec::with_capacity(numbers.len());
+        let mut corners = 0;
+        for &face in &numbers {
+            corners += self.face_ends[face as usize] as usize - begin(face as usize);
+            face_ends.push(corners as u32);
+        }
+        let of_kept = |all: &[RawIndex]| -> Vec<RawIndex> {
+            if all.is_empty() {
+                return Vec::new();
+            }
+            let runs = kept.iter().filter(|run| !run.is_empty()).map(|run| &all[begin(run.start)..begin(run.end)]);
+            runs.flatten().copied().collect()
+        };
+        let attribute = |all: &[RawIndex]| {
+            let left = of_kept(all);
+            // As long as the corners, or empty when no corner has any.
+            if left.iter().all(|&index| index == RawIndex::NONE) { Vec::new() } else { left }
+        };
+        let (uvs, normals) = (attribute(&self.uv_corners), attribute(&self.normal_corners));
+        self.corners = of_kept(&self.corners);
+        (self.uv_corners, self.normal_corners, self.face_ends) = (uvs, normals, face_ends);
+        for switch in &mut self.switches {
+            switch.first_face = numbers.partition_point(|&face| (face as usize) < switch.first_face);
+        }
+        self.face_numbers = Some(numbers);
+    }
+
+    fn parse_vertex(&mut self, cursor: &mut Cursor, wanted: Wanted<'_>) -> Result<(), Box<Fault>> {
         let position = cursor.position().map_err(|fault| fault.expecting(VERTEX))?;
         self.positions.push(position);
         cursor.skip_blanks();
@@ -152,7 +212,7 @@ impl<'a> Piece<'a> {
         Ok(())
     }
 
-    fn parse_weight_and_color(&mut self, cursor: &mut Cursor, wanted: Wanted) -> Result<(), Box<Fault>> {
+    fn parse_weight_and_color(&mut self, cursor: &mut Cursor, wanted: Wanted<'_>) -> Result<(), Box<Fault>> {
         let start = cursor.at();
         let mut numbers = [0.0; 4];
         let mut count = 0;
@@ -267,8 +327,12 @@ impl<'a> Piece<'a> {
     }
 
     /// Where a corner of a face was written: its byte in the file, and its text.
-    #[expect(clippy::indexing_slicing, reason = "the range is one of the text's own parts")]
+    #[expect(
+        clippy::indexing_slicing,
+        reason = "the range is one of the text's own parts, and the face one of the piece's"
+    )]
     pub(super) fn find_corner(&self, text: &'a [u8], face: usize, corner: usize) -> FoundCorner<'a> {
+        let face = self.face_numbers.as_ref().map_or(face, |numbers| numbers[face] as usize);
         let mut cursor = Cursor::new(&text[self.range.clone()], OBJ_BLANKS);
         let mut faces = 0;
         while cursor.find_statement() {
@@ -287,6 +351,35 @@ impl<'a> Piece<'a> {
         }
         FoundCorner { at: self.range.start + cursor.at(), word: cursor.word() }
     }
+}
+
+/// Whether what stands after `o` or `g` is a name, which may have blanks in it, or after `g` has it among several.
+fn is_named(is_object: bool, name: &[u8], part: &str) -> bool {
+    name == part.as_bytes() || !is_object && groups(name).any(|group| group == part.as_bytes())
+}
+
+/// The names of groups after `g`.
+fn groups(names: &[u8]) -> impl Iterator<Item = &[u8]> {
+    names.split(u8::is_ascii_whitespace).filter(|name| !name.is_empty())
+}
+
+/// The names of all objects and groups of a text, in order, but for those that are no text.
+pub(super) fn names_of_parts(text: &[u8]) -> impl Iterator<Item = &str> {
+    let mut cursor = Cursor::new(text, OBJ_BLANKS);
+    let next = move || {
+        while cursor.find_statement() {
+            let word = cursor.word();
+            let names = if matches!(word, b"o" | b"g") { Some((word == b"o", cursor.name())) } else { None };
+            cursor.skip_statement();
+            if names.is_some() {
+                return names;
+            }
+        }
+        None
+    };
+    let all = std::iter::from_fn(next)
+        .flat_map(|(is_object, names)| names.split(move |byte| !is_object && byte.is_ascii_whitespace()));
+    all.filter_map(|name| std::str::from_utf8(name).ok())
 }
 
 /// A corner in the text.

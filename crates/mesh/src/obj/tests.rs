@@ -11,7 +11,7 @@ const SAMPLE: &str = "# sample\r\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 \\\n\nv 1 1 
     s1\ns2\ns3\ns4\ns5\ns1\ns6\ns7\ns8\ns9\ns1\n";
 
 fn read(text: &str, piece_bytes: usize) -> Result<MeshData, String> {
-    let wanted = Wanted { colors: true };
+    let wanted = Wanted { colors: true, part: None };
     read_in_pieces(text.as_bytes(), (Path::new("m.obj"), &Files::default()), wanted, piece_bytes)
         .map_err(|error| error.to_string())
 }
@@ -23,6 +23,25 @@ fn the_size_of_pieces_does_not_matter() {
     for bytes in 1..SAMPLE.len() {
         assert_eq!(read(SAMPLE, bytes).as_ref(), Ok(&whole), "pieces of {bytes} bytes");
     }
+}
+
+/// Faces are in a group over the ends of pieces.
+#[test]
+fn the_size_of_pieces_does_not_matter_to_parts() {
+    let text = format!("o it\n{SAMPLE}o other\nf 1 2 3\ng one two\nf 1 2 4\n");
+    let read = |name: &str, piece_bytes: usize| {
+        let wanted = Wanted { colors: true, part: Some(name) };
+        read_in_pieces(text.as_bytes(), (Path::new("m.obj"), &Files::default()), wanted, piece_bytes)
+            .map_err(|error| error.to_string())
+    };
+    for (name, triangles) in [("it", 7), ("one", 8), ("two", 1), ("other", 2)] {
+        let whole = read(name, usize::MAX / 2).expect("a mesh");
+        assert_eq!(whole.triangles.len(), triangles, "{name}");
+        for bytes in 1..text.len() {
+            assert_eq!(read(name, bytes).as_ref(), Ok(&whole), "{name} in pieces of {bytes} bytes");
+        }
+    }
+    assert_eq!(read("none", 1), read("none", usize::MAX / 2));
 }
 
 /// Two faults at different ends of the file, of both kinds: the same one is told for every size of pieces.

@@ -23,7 +23,7 @@ use source::{Ascii, Binary, Source};
 use std::path::Path;
 
 /// Reads a PLY file.
-pub(super) fn read(text: &[u8], path: &Path, wanted: Wanted) -> Result<MeshData, MeshError> {
+pub(super) fn read(text: &[u8], path: &Path, wanted: Wanted<'_>) -> Result<MeshData, MeshError> {
     let header = Header::parse(text).map_err(|fault| MeshError::at_line(path, text, *fault))?;
     let builder = match header.encoding {
         Encoding::Ascii => Reader::new(Ascii::new(text, header.data)).read(&header, wanted),
@@ -104,7 +104,7 @@ struct Plan<'h> {
 }
 
 impl<'h> Plan<'h> {
-    fn new(element: &'h Element<'h>, wanted: Wanted) -> Result<Plan<'h>, Box<Fault>> {
+    fn new(element: &'h Element<'h>, wanted: Wanted<'_>) -> Result<Plan<'h>, Box<Fault>> {
         let (role, takes) = match element.name {
             b"vertex" => {
                 let (layout, slots) = vertex_slots(element, wanted)?;
@@ -139,7 +139,7 @@ impl<'h> Plan<'h> {
 /// The numbers of the properties that are read, ascending, each with its slot.
 type Taken = Vec<(usize, usize)>;
 
-fn vertex_slots(element: &Element, wanted: Wanted) -> Result<(VertexLayout, Taken), Box<Fault>> {
+fn vertex_slots(element: &Element, wanted: Wanted<'_>) -> Result<(VertexLayout, Taken), Box<Fault>> {
     const EXPECTED: &str = "the properties `x`, `y` and `z` of the element `vertex`, each a number";
     let find = |name: &str| {
         let scalar = |kind| matches!(kind, Kind::Scalar(_));
@@ -226,7 +226,7 @@ impl<S: Source> Reader<S> {
         Reader { source, builder: Builder::default(), corners: Vec::new() }
     }
 
-    fn read(mut self, header: &Header, wanted: Wanted) -> Result<Builder, Box<Fault>> {
+    fn read(mut self, header: &Header, wanted: Wanted<'_>) -> Result<Builder, Box<Fault>> {
         let plan = |element| Plan::new(element, wanted);
         let plans = header.elements.iter().map(plan).collect::<Result<Vec<Plan>, _>>()?;
         let mut all_vertices = plans.iter().filter(|plan| matches!(plan.role, Role::Vertices(_)));
@@ -439,7 +439,7 @@ impl<S: Source> Reader<S> {
     }
 
     /// Counts what is passed over and would be seen.
-    fn count_colors(&mut self, plan: &Plan, wanted: Wanted) {
+    fn count_colors(&mut self, plan: &Plan, wanted: Wanted<'_>) {
         let has = |name: &str| plan.element.properties.iter().any(|property| property.name == name.as_bytes());
         let (colors, count) = (COLORS.iter().any(|names| names.iter().all(|name| has(name))), plan.element.count);
         let oddities = &mut self.builder.oddities;

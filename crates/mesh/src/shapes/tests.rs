@@ -1,6 +1,7 @@
 //! What is closed is closed, its front is outside, and vertices, normals and texture coordinates are those of the
 //! surface itself.
 
+mod bezier;
 mod height_field;
 mod round;
 mod swept;

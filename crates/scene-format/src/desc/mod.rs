@@ -64,9 +64,9 @@ pub use output::{Layer, Mark, MaskName, Matte, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
     Arrow, Capsule, Cone, Corners, Curve, Cylinder, Difference, Disk, Extrude, Faces, Groups, HeightField, InlineMesh,
-    Instances, Intersection, Lathe, Mesh, MeshSource, Moved, Operands, Outline, PathPoints, PlacementList,
+    Instances, Intersection, Lathe, Mesh, MeshSource, Moved, Operands, Outline, Part, PathPoints, PlacementList,
     PlacementPattern, Placements, Plane, Polygon, Profile, Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube,
-    Turning, Union, Within, no_extent,
+    TubeCurve, Turning, Union, Within, no_extent,
 };
 pub(crate) use stereo::Stereoscopy;
 pub use stereo::{Stereo, StereoLayout};

@@ -107,6 +107,7 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
     const SYNONYMS: &[(&str, &[&str])] = &[
         ("Linear", &["linear_spline", "linearspline", "polyline", "straight", "lines", "polygon"]),
         ("CatmullRom", &["cubic_spline", "cubicspline", "quadratic_spline", "spline", "smooth", "cubic", "natural"]),
+        ("Bezier", &["bezier_spline", "bezierspline", "bezier_curve", "beziercurve", "cubic_bezier", "cubicbezier"]),
         ("SideBySide", &["sidebyside", "side_by_side", "sbs", "left_right", "leftright", "horizontal", "lr"]),
         ("TopBottom", &["topbottom", "top_bottom", "over_under", "overunder", "tab", "vertical", "above", "tb"]),
         ("SphereLight", &["pointlight", "light", "lamp", "spherearealight", "lightsource"]),
@@ -195,6 +196,7 @@ pub(super) fn other_kind(name: &str, def: &'static EnumDef) -> Option<&'static s
         "material" => MATERIALS,
         "texture" => TEXTURES,
         "curve" => CURVES,
+        "curve of a tube" => TUBE_CURVES,
         "mapping" | "mapping of a solid texture" => MAPPINGS,
         "light" => LIGHTS,
         "transform" => TRANSFORMS,
@@ -215,7 +217,12 @@ const OBJECTS: Hints = &[
     ),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
-        &["bezier", "nurbs", "text"],
+        &["bezier"],
+        "a curve is a `Tube` with `curve: Bezier`; of patches make a mesh, in OBJ, OFF, PLY, STL, glTF or GLB, and \
+         name its file in a `Mesh`",
+    ),
+    (
+        &["nurbs", "text"],
         "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a \
          `Mesh`",
     ),
@@ -320,8 +327,17 @@ const LAYERS: Hints = &[
 
 const CURVES: Hints = &[(
     &["bezier", "bezier_spline", "bezierspline", "bspline", "b_spline", "nurbs", "hermite"],
-    "there are no control points: the curve goes through all points, so take points on it and `CatmullRom`",
+    "there are no control points, which only a `Tube` has: the curve goes through all points, so take points on it and \
+     `CatmullRom`",
 )];
+
+const TUBE_CURVES: Hints = &[
+    (
+        &["bspline", "b_spline", "nurbs"],
+        "there are no such control points: take points on the curve and `CatmullRom`, or make it `Bezier`",
+    ),
+    (&["hermite", "hermite_spline"], "take `Bezier`, whose handles stand a third of the tangents from their points"),
+];
 
 const MAPPINGS: Hints = &[
     (

@@ -23,6 +23,11 @@ impl Reader<'_> {
         self.sink.diagnostics.len()
     }
 
+    /// Whether a fault of syntax has been told.
+    fn is_damaged(&self) -> bool {
+        self.sink.diagnostics.iter().any(|told| told.code.as_str().starts_with("E01"))
+    }
+
     /// Leaves the first of the faults that were told since then, where so many are all there are and all have this
     /// code.
     pub(crate) fn once(&mut self, since: usize, code: codes::Code, count: usize) {
@@ -51,6 +56,10 @@ impl Reader<'_> {
                 };
             } else {
                 sides -= sides_of(&object.value);
+            }
+            // How many there have to be goes by words beside them, and of a damaged text those may be lost.
+            if faults.iter().any(|fault| fault.code == codes::WRONG_COUNT) && self.is_damaged() {
+                faults.retain(|fault| fault.code != codes::WRONG_COUNT);
             }
             if self.intense {
                 faults.extend(no_intensity(&object.value, &intense));

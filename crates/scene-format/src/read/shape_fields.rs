@@ -58,6 +58,16 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
             "polygons have no holes yet: a thin plate with holes is an `Extrude` of small `depth`, whose `outline` has \
              a ring for each"
         }
+        (
+            "spline" | "interpolation" | "smooth" | "bezier" | "type" | "kind" | "linear_spline" | "cubic_spline",
+            "Tube",
+        ) => {
+            "how points are joined is its `curve`: Linear by straight lines, CatmullRom by a smooth curve through all \
+             of them, Bezier by curves with handles"
+        }
+        ("handles" | "control_points" | "controlpoints" | "handle_left" | "handle_right" | "tangents", "Tube") => {
+            "handles stand among the `points` with `curve: Bezier`: a point, two handles, the next point, and so on"
+        }
         ("spline" | "interpolation" | "smooth" | "bezier" | "type" | "kind" | "linear_spline" | "cubic_spline", _)
             if joined =>
         {

@@ -132,6 +132,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
         "light_groups",
         &["light_group", "lightgroups", "lightgroup", "light_layers", "light_passes", "lpe", "light_aovs"],
     ),
+    ("part", &["submesh", "sub_mesh", "node", "node_name", "object_name", "group_name", "mesh_name", "subset"]),
     ("group", &["lightgroup", "light_group", "light_layer", "aov_group"]),
     ("marks", &["labels", "points", "anchors", "annotations"]),
 ];

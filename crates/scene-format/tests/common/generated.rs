@@ -291,7 +291,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                     _ => Radii::Each((0..2 + random.below(3)).map(|_| length(random)).collect()),
                 }
                 .into(),
-                curve: *random.pick(&[Curve::Linear, Curve::CatmullRom]),
+                curve: *random.pick(&[TubeCurve::Linear, TubeCurve::CatmullRom, TubeCurve::Bezier]),
                 closed: random.below(2) == 0,
                 segments: (3 + random.below(4094) as u32).into(),
                 material,
@@ -422,20 +422,23 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 camera_visible: random.below(4) != 0,
                 name: name(random),
             })),
-            _ => Object::Mesh(Mesh {
-                source: if random.below(2) == 0 {
-                    MeshSource::File(PathBuf::from(text(random)).into())
-                } else {
-                    inline_mesh(random)
-                },
-                material,
-                transform: transforms(random),
-                placements,
-                instances: *random.pick(&[Instances::Auto, Instances::Always, Instances::Never]),
-                shading: *random.pick(&[Shading::Auto, Shading::Smooth, Shading::Flat]),
-                camera_visible: random.below(4) != 0,
-                name: name(random),
-            }),
+            _ => {
+                let of_file = random.below(2) == 0;
+                Object::Mesh(Mesh {
+                    source: match of_file {
+                        true => MeshSource::File(PathBuf::from(text(random)).into()),
+                        false => inline_mesh(random),
+                    },
+                    part: Part::from((of_file && random.below(2) == 0).then(|| text(random))),
+                    material,
+                    transform: transforms(random),
+                    placements,
+                    instances: *random.pick(&[Instances::Auto, Instances::Always, Instances::Never]),
+                    shading: *random.pick(&[Shading::Auto, Shading::Smooth, Shading::Flat]),
+                    camera_visible: random.below(4) != 0,
+                    name: name(random),
+                })
+            }
         };
         // What crosses itself is no outline; three points do not, joined by straight lines.
         match &mut object {

@@ -142,8 +142,11 @@ impl<'a> Sources<'a> {
         Sources { kept: Some(kept), store, ..self.in_memory() }
     }
 
-    pub fn mesh(&self, path: &Path, wanted: Wanted) -> Result<Arc<MeshData>, MeshError> {
+    pub fn mesh(&self, path: &Path, wanted: Wanted<'_>) -> Result<Arc<MeshData>, MeshError> {
         if let Some(arrays) = self.meshes.get(&plain(path)) {
+            if wanted.part.is_some() {
+                return Err(MeshError::NoParts { path: path.to_owned(), what: "meshes in memory".to_owned() });
+            }
             return arrays.mesh(path).map(Arc::new);
         }
         if self.pixels.contains_key(&plain(path)) {

@@ -16,7 +16,7 @@ use xxhash_rust::xxh3::Xxh3;
 /// again when anything that it is built of is another: bytes of the picture do not depend on what was kept.
 #[derive(Default)]
 pub struct Kept {
-    meshes: Mutex<BTreeMap<(PathBuf, Wanted), Entry<MeshData>>>,
+    meshes: Mutex<BTreeMap<MeshKey, Entry<MeshData>>>,
     textures: Mutex<BTreeMap<(PathBuf, Reading), Entry<Texture>>>,
     heights: Mutex<BTreeMap<PathBuf, Entry<Landscape>>>,
     environments: Mutex<BTreeMap<PathBuf, Entry<Panorama>>>,
@@ -27,6 +27,9 @@ pub struct Kept {
     /// By what they were built of.
     trees: Mutex<BTreeMap<u128, (bool, Arc<Accel>)>>,
 }
+
+/// A file, whether with the colours of its vertices, and the part of it.
+type MeshKey = (PathBuf, bool, Option<String>);
 
 /// What was made of a file.
 struct Entry<T> {
@@ -87,7 +90,7 @@ fn file<K: Ord, T, E>(
 pub(super) fn load_mesh(
     kept: &Kept,
     path: &Path,
-    wanted: Wanted,
+    wanted: Wanted<'_>,
     read: impl FnOnce() -> Result<Arc<MeshData>, MeshError>,
 ) -> Result<Arc<MeshData>, MeshError> {
     // What is odd may be that a file is missing, and it may come: no file has the empty name, so this one is read
@@ -96,7 +99,8 @@ pub(super) fn load_mesh(
         let odd = (!mesh.warnings.is_empty()).then(PathBuf::new);
         mesh.libraries.iter().cloned().chain(odd).collect()
     };
-    file(kept.is_frozen, &kept.meshes, (path.to_owned(), wanted), path, read, others)
+    let key = (path.to_owned(), wanted.colors, wanted.part.map(str::to_owned));
+    file(kept.is_frozen, &kept.meshes, key, path, read, others)
 }
 
 /// A texture, read or kept.
@@ -263,7 +267,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let mesh = folder.path().join("t.off");
         fs::write(&mesh, OFF).expect("a file");
-        let key = (mesh.clone(), Wanted::default());
+        let key = (mesh.clone(), false, None);
         let kept = Kept::default();
         let compiled = |albedo, x| compile_keeping(&scene(folder.path(), albedo, x), &kept).expect("it compiles");
         let first = compiled("0.5", 0.0);

@@ -7,7 +7,7 @@ use super::vertex_colors::Readers;
 use rayon::prelude::*;
 use scene_format::codes;
 use scene_format::desc::{HeightField, MaterialRef};
-use scene_format::diagnostic::Span;
+use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -39,8 +39,8 @@ impl Loaded {
 /// Loads every mesh file that the scene names, each once, in parallel; all faults become diagnostics.
 // Long: one arm for each way that triangles come into a scene.
 pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnostics) -> Loaded {
-    let mut paths: Vec<(PathBuf, Span)> = Vec::new();
-    let mut index_of_path: BTreeMap<PathBuf, usize> = BTreeMap::new();
+    let mut paths: Vec<(PathBuf, Span, Option<&Spanned<String>>)> = Vec::new();
+    let mut index_of_path: BTreeMap<(PathBuf, Option<&str>), usize> = BTreeMap::new();
     let mut shapes: Vec<UnitShape> = Vec::new();
     let mut inline: Vec<Result<MeshData, Box<Diagnostic>>> = Vec::new();
     let mut made: Vec<(&dyn Triangulated, Span)> = Vec::new();
@@ -53,10 +53,11 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
         geometry_of_object.push(match object.geometry {
             Geometry::File(file) => {
                 let path = desc.base_dir.join(&file.value);
-                let index = *index_of_path.entry(path).or_insert_with_key(|path| {
-                    paths.push((path.clone(), file.span));
+                let part = object.part.map(|part| part.value.as_str());
+                let index = *index_of_path.entry((path, part)).or_insert_with_key(|(path, _)| {
+                    paths.push((path.clone(), file.span, object.part));
                     own_materials.push(false);
-                    wanted.push(Wanted::default());
+                    wanted.push(Wanted { colors: false, part });
                     paths.len() - 1
                 });
                 own_materials[index] |= *object.material == MaterialRef::Default;
@@ -83,11 +84,11 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
             }
         });
     }
-    let read = |((path, _), wanted): (&(PathBuf, Span), &Wanted)| sources.mesh(path, *wanted);
+    let read = |((path, ..), wanted): (&(PathBuf, Span, _), &Wanted<'_>)| sources.mesh(path, *wanted);
     let results: Vec<_> = paths.par_iter().zip(&wanted).map(read).collect();
     let mut files = Vec::new();
     let mut file_of_path = Vec::new();
-    for ((result, (_, span)), own) in results.into_iter().zip(&paths).zip(own_materials) {
+    for ((result, (_, span, part)), own) in results.into_iter().zip(&paths).zip(own_materials) {
         match result {
             Ok(data) => {
                 let told = data.warnings.iter().filter(|w| own || w.code != codes::MTL_UNSUPPORTED);
@@ -96,7 +97,8 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
                 files.push(data);
             }
             Err(error) => {
-                diagnostics.push(error.to_diagnostic(*span));
+                let of_part = part.filter(|part| error.is_of_part() && part.span != Span::NONE);
+                diagnostics.push(error.to_diagnostic(of_part.map_or(*span, |part| part.span)));
                 file_of_path.push(None);
             }
         }

@@ -58,6 +58,8 @@ pub struct Polygonal<'a> {
     pub shading: Shading,
     /// Where it stands in the scene.
     pub span: Span,
+    /// The part of its file that it is, if it is no whole file.
+    pub part: Option<&'a Spanned<String>>,
     /// `mesh`
     pub noun: &'static str,
 }
@@ -77,6 +79,7 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
                 instances: Instances::Never,
                 shading: Shading::Flat,
                 span: object.span,
+                part: None,
                 noun,
             })
         };
@@ -96,6 +99,7 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
                 instances: mesh.instances,
                 shading: mesh.shading,
                 span: object.span,
+                part: mesh.part.name(),
                 noun: "mesh",
             }),
             Object::HeightField(field) => Some(of_made(number, object, Geometry::Heights(&**field), "height field")),
@@ -121,6 +125,7 @@ fn of_made<'a>(
         instances: Instances::Auto,
         shading: Shading::Auto,
         span: object.span,
+        part: None,
         noun,
     }
 }

@@ -6,8 +6,8 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, deep_picture, icosphere, picture, square, torus};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Caustics, Instances, Integrator, Object, PixelFilter, Placements, Reuse, Shading, Stereo,
-    StereoLayout, TextureFilter, TextureWrap, Transform,
+    Acceleration, Caustics, Instances, Integrator, MaterialRef, Object, Part, PixelFilter, Placements, Reuse, Shading,
+    Stereo, StereoLayout, TextureFilter, TextureWrap, Transform,
 };
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -212,6 +212,86 @@ fn formats_of_meshes() {
         let obj = picture_of(&ball.obj("single-ball"), &ring.obj("single-ring"), shading);
         assert!(obj == picture_of(&ball.glb("single-ball"), &ring.glb("single-ring"), shading), "GLB {shading:?}");
     }
+}
+
+/// A part of a mesh's file is a file that holds nothing else: its materials, texture coordinates and normals, the
+/// vertices that turns and scales go about, its bounds, and all that is made of these.
+#[test]
+fn parts_of_meshes() {
+    let alone = ["ball", "ring"].map(|name| {
+        let shape = if name == "ball" { icosphere(2) } else { torus(0.4, 12, 8) };
+        std::fs::read_to_string(shape.obj(&format!("alone-{name}"))).expect("it was written")
+    });
+    let count = |word: &str| alone[0].lines().filter(|line| line.split(' ').next() == Some(word)).count();
+    let before = ["v", "vt", "vn"].map(count);
+    // The ring behind the ball: its corners count from the first vertex of the file.
+    let behind: String = alone[1].lines().fold(String::new(), |all, line| {
+        let shifted = |corner: &str| {
+            let shift = |(index, before): (&str, usize)| {
+                index.parse::<usize>().map_or(String::new(), |k| (k + before).to_string())
+            };
+            corner.split('/').zip(before).map(shift).collect::<Vec<_>>().join("/")
+        };
+        let words =
+            line.strip_prefix("f ").map(|corners| corners.split(' ').map(shifted).collect::<Vec<_>>().join(" "));
+        all + &words.map_or(line.to_owned(), |words| format!("f {words}")) + "\n"
+    });
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("a file");
+        path
+    };
+    write("m.mtl", "newmtl red\nKd 0.8 0.1 0.1\nnewmtl glow\nKd 0 0 0\nKe 3 2 1\nnewmtl blue\nKd 0.1 0.2 0.9\n");
+    let [ball, ring] = [format!("usemtl red\n{}", alone[0]), format!("usemtl glow\n{behind}")];
+    let both = format!("mtllib m.mtl\no ball\n{ball}g ring far\no far\n{ring}o\ng\nusemtl blue\nf 1 2 3\n");
+    let both = write("both.obj", &both);
+    let files = [
+        write("ball.obj", &format!("mtllib m.mtl\n{ball}")),
+        write("ring.obj", &format!("mtllib m.mtl\nusemtl glow\n{}", alone[1])),
+    ];
+    let picture_of = |of_parts: bool, shading: Shading, instances: Instances| {
+        let steps = || vec![scale(0.9), rotate([1.0, 2.0, 3.0], 40.0), Transform::DropTo { y: 0.0 }];
+        let place = |k: usize, name: &str| {
+            let steps =
+                steps().into_iter().chain([Transform::Translate([k as f64 - 0.5, 0.0, -0.5 * k as f64])]).collect();
+            let mut object = mesh(if of_parts { &both } else { &files[k] }, mirror([0.9; 3]), shading, steps);
+            let Object::Mesh(mesh) = &mut object else { panic!("a mesh") };
+            mesh.part = Part::from(of_parts.then_some(name));
+            mesh.material = MaterialRef::Default;
+            mesh.instances = instances;
+            object
+        };
+        let light = light([4.0, 7.0, 5.0], 1.0, [12.0, 11.0, 9.0]);
+        let desc =
+            scene(24, vec![light], vec![place(0, "ball"), place(1, "ring")]).camera([0.5, 3.0, 6.0], [0.0; 3], 45.0);
+        rendered(&compiled(&desc), &RenderOptions { samples: Some(4), ..options() })
+    };
+    for shading in [Shading::Auto, Shading::Smooth, Shading::Flat] {
+        for instances in [Instances::Always, Instances::Never] {
+            let file = picture_of(false, shading, instances);
+            assert!(file.iter().any(|p| p[0] != file[0][0]), "nothing to see");
+            assert!(file == picture_of(true, shading, instances), "{shading:?} {instances:?}");
+        }
+    }
+}
+
+/// What is kept of a file is kept for each part of it.
+#[test]
+fn parts_of_meshes_are_kept_apart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("t.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no one\nf 1 2 3\no two\nf 1 2 4\nf 1 3 4\n";
+    std::fs::write(&file, text).expect("a file");
+    let kept = tracer_core::Kept::default();
+    let triangles = |part: Option<&str>| {
+        let mut object = mesh(&file, mirror([0.9; 3]), Shading::Flat, Vec::new());
+        let Object::Mesh(mesh) = &mut object else { panic!("a mesh") };
+        mesh.part = Part::from(part);
+        let desc = scene(8, vec![light([4.0, 7.0, 5.0], 1.0, [12.0, 11.0, 9.0])], vec![object]);
+        tracer_core::compile_keeping(&desc, &kept).expect("a scene").statistics().triangles
+    };
+    assert_eq!([Some("one"), Some("two"), None, Some("one")].map(triangles), [1, 2, 3, 1]);
 }
 
 /// A mesh that the scene writes out is that of a file with the same points and faces, copies and all.

@@ -40,6 +40,25 @@ fn a_thousand_faults_are_enough() {
     sandbox.run(&["check", "many.ron"]).ends(2).says(&["m999.obj", "more than 1000 faults", "1001 errors"]);
 }
 
+/// A part that a mesh file does not have is told where it is written, with the names that there are.
+#[test]
+fn parts_of_meshes_that_are_none_are_told() {
+    let sandbox = Sandbox::new();
+    sandbox.write("car.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no body\nf 1 2 3\ng wheel\nf 3 2 1\n");
+    sandbox.write("car.ply", "ply\n");
+    let with = |words: &str| {
+        sandbox.write("car.ron", format!("Scene(background: 1, objects: [\n    Mesh({words}),\n])\n"));
+        sandbox.run(&["check", "car.ron"])
+    };
+    with("file: \"car.obj\", part: \"wheel\"").ends(0);
+    let told = ["E0514", "car.ron:2:33", "there is no part `whel`", "`body`, `wheel`", "did you mean `wheel`?"];
+    with("file: \"car.obj\", part: \"whel\"").ends(2).says(&told);
+    with("file: \"car.ply\", part: \"wheel\"").ends(2).says(&["E0514", "PLY files have no parts", "OBJ, glTF or GLB"]);
+    // Two parts of one file, one of which there is.
+    let both = "file: \"car.obj\", part: \"body\"), Mesh(file: \"car.obj\", part: \"door\"";
+    with(both).ends(2).says(&["there is no part `door`", "1 error"]);
+}
+
 /// A scene with a mesh, its MTL file, its texture, placements, and a texture of the scene.
 fn furnished() -> Sandbox {
     let sandbox = Sandbox::new();

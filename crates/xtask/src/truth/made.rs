@@ -8,7 +8,7 @@ use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
     Arrow, Corners, Curve, Extrude, HeightField, Lathe, Material, Name, Object, Outline, PathPoints, Placements,
-    Polygon, Profile, Radii, Torus, Transform, Tube, Vec3,
+    Polygon, Profile, Radii, Torus, Transform, Tube, TubeCurve, Vec3,
 };
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -51,19 +51,27 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             camera_visible: true,
             name,
         })),
-        3 | 8 => Object::Tube(Box::new(Tube {
-            points: PathPoints(path(radius, random)).into(),
-            // A curve that bends tighter than its tube passes through itself, which glass shows.
-            radius: Radii::All(0.12 * radius).into(),
-            curve,
-            closed: once_in(random, 2),
-            segments: segments.min(32).into(),
-            material,
-            transform,
-            placements,
-            camera_visible: true,
-            name,
-        })),
+        3 | 8 => {
+            let path = path(radius, random);
+            let (points, curve, closed) = match curve {
+                Curve::Linear => (path, TubeCurve::Linear, once_in(random, 2)),
+                Curve::CatmullRom if once_in(random, 2) => (path, TubeCurve::CatmullRom, once_in(random, 2)),
+                Curve::CatmullRom => (handles(&path), TubeCurve::Bezier, false),
+            };
+            Object::Tube(Box::new(Tube {
+                points: PathPoints(points).into(),
+                // A curve that bends tighter than its tube passes through itself, which glass shows.
+                radius: Radii::All(0.12 * radius).into(),
+                curve,
+                closed,
+                segments: segments.min(32).into(),
+                material,
+                transform,
+                placements,
+                camera_visible: true,
+                name,
+            }))
+        }
         4 | 9 => Object::Torus(Box::new(Torus {
             center: [0.0, random.between(-0.1, 0.1) * radius, 0.0].into(),
             axis: [random.between(-1.0, 1.0), 0.5, random.between(-1.0, 1.0)].into(),
@@ -138,6 +146,17 @@ fn path(radius: f64, random: &mut Random) -> Vec<Vec3> {
         [side, (0.3 * k as f64 - 0.45) * radius, 0.3 * if k < 2 { side } else { -side }]
     };
     (0..4).map(corner).collect()
+}
+
+/// A zigzag's Bezier curve: it is level at its points, and bends as wide as the zigzag.
+fn handles(path: &[Vec3]) -> Vec<Vec3> {
+    let mut points = vec![path[0]];
+    for pair in path.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        let rise = [0.0, 0.5 * (to[1] - from[1]), 0.0];
+        points.extend([[0, 1, 2].map(|axis| from[axis] + rise[axis]), [0, 1, 2].map(|axis| to[axis] - rise[axis]), to]);
+    }
+    points
 }
 
 /// A star, or a polygon that is nearly regular.

@@ -4,7 +4,7 @@ use super::meshes::{Point, Shape};
 use anyhow::Context as _;
 use scene_format::desc::{
     Albedo, Amount, Color, Diffuse, Faces, Image, InlineMesh, Instances, Light, LightGroup, Material, MaterialRef,
-    Mesh, MeshSource, Mirror, Name, Object, Placements, Shading, Sphere, SphereLight, Transform, Transparent,
+    Mesh, MeshSource, Mirror, Name, Object, Part, Placements, Shading, Sphere, SphereLight, Transform, Transparent,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Defaults, SceneDesc, to_ron};
@@ -55,13 +55,21 @@ impl World {
 
     /// Adds a mesh as it stands.
     pub fn mesh(&mut self, name: &str, shape: &Shape, material: Material) {
-        let file = self.file(name, "obj", shape.obj().into_bytes());
-        self.placed(file, material, Vec::new());
+        let is_part = self.desc.objects.len().is_multiple_of(2);
+        let text = if is_part {
+            // With another one behind it, which does not show.
+            format!("o it\n{}o other\nv 0 9 0\nv 9 9 0\nv 0 9 9\nf -3 -2 -1\n", shape.obj())
+        } else {
+            shape.obj()
+        };
+        let file = self.file(name, "obj", text.into_bytes());
+        let part = Part::from(is_part.then_some("it"));
+        self.place((MeshSource::File(file.into()), part), material, Vec::new());
     }
 
     /// Adds a mesh from one of the files.
     pub fn placed(&mut self, file: PathBuf, material: Material, transform: Vec<Transform>) {
-        self.place(MeshSource::File(file.into()), material, transform);
+        self.place((MeshSource::File(file.into()), Part::default()), material, transform);
     }
 
     /// Adds a mesh that the scene writes out, without normals and texture coordinates, with the colours of its points
@@ -75,12 +83,13 @@ impl World {
         let mut faces = Faces::default();
         shape.triangles.iter().for_each(|corners| faces.push(&corners.map(|corner| corner as u32)));
         let mesh = InlineMesh { points: shape.positions.clone(), faces, colors };
-        self.place(MeshSource::Inline(Arc::new(mesh.into())), material, transform);
+        self.place((MeshSource::Inline(Arc::new(mesh.into())), Part::default()), material, transform);
     }
 
-    fn place(&mut self, source: MeshSource, material: Material, transform: Vec<Transform>) {
+    fn place(&mut self, (source, part): (MeshSource, Part), material: Material, transform: Vec<Transform>) {
         let mesh = Mesh {
             source,
+            part,
             material: inline(material),
             transform: transform.into_iter().map(Spanned::from).collect(),
             placements: Placements::One,

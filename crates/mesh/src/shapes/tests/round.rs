@@ -3,12 +3,12 @@
 use super::{Vector, check, dot, made, open_edges, volume};
 use crate::shapes::Triangulated;
 use scene_format::desc::{
-    Arrow, Curve, MaterialRef, Name, PathPoints, PerAxis, Placements, Radii, RectBox, Torus, Tube,
+    Arrow, MaterialRef, Name, PathPoints, PerAxis, Placements, Radii, RectBox, Torus, Tube, TubeCurve,
 };
 use scene_format::diagnostic::Span;
 use std::f64::consts::{PI, TAU};
 
-pub(super) fn tube(points: &[[f64; 3]], radius: Radii, curve: Curve, closed: bool) -> Tube {
+pub(super) fn tube(points: &[[f64; 3]], radius: Radii, curve: TubeCurve, closed: bool) -> Tube {
     Tube {
         points: PathPoints(points.to_vec()).into(),
         radius: radius.into(),
@@ -48,7 +48,7 @@ fn tubes_are_what_balls_pass_over() {
     let straight: &[Vector] = &[[0.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
     let ring: &[Vector] = &[[2.0, 0.0, 0.0], [0.0, 0.3, 2.0], [-2.0, 0.0, 0.0], [0.0, -0.4, -2.0]];
     for (points, closed) in [(bent, false), (straight, false), (ring, true)] {
-        let tube = tube(points, Radii::All(0.3), Curve::Linear, closed);
+        let tube = tube(points, Radii::All(0.3), TubeCurve::Linear, closed);
         let mesh = made(&tube);
         check(&mesh);
         assert_eq!(open_edges(&mesh), 0, "{points:?}");
@@ -61,7 +61,7 @@ fn tubes_are_what_balls_pass_over() {
     }
     // A capsule: the volume of a prism and two polyhedra within the ball, whose chords of 1/32 of the turn take 0.6 %
     // at most.
-    let mesh = made(&tube(straight, Radii::All(0.3), Curve::Linear, false));
+    let mesh = made(&tube(straight, Radii::All(0.3), TubeCurve::Linear, false));
     let truth = PI * 0.09 * (3.0 + 4.0 / 3.0 * 0.3);
     assert!((0.99..1.0).contains(&(volume(&mesh) / truth)), "{}", volume(&mesh) / truth);
     let v = mesh.uvs.iter().map(|uv| uv[1]);
@@ -69,7 +69,7 @@ fn tubes_are_what_balls_pass_over() {
     // Straight, with radii that change: the ends are parts of balls, the sides cones.
     for radii in [vec![0.2, 0.6, 0.1], vec![0.5, 0.2, 0.7]] {
         let points: &[Vector] = &[[0.0; 3], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
-        let mesh = made(&tube(points, Radii::Each(radii.clone()), Curve::Linear, false));
+        let mesh = made(&tube(points, Radii::Each(radii.clone()), TubeCurve::Linear, false));
         check(&mesh);
         assert_eq!(open_edges(&mesh), 0);
         // Where a narrowing cone and a widening one meet, vertices lie between both, in the plane through the point.
@@ -83,7 +83,7 @@ fn tubes_are_what_balls_pass_over() {
 fn tubes_along_curves() {
     let circle: Vec<Vector> =
         (0..8).map(|k| f64::from(k) * TAU / 8.0).map(|t| [2.0 * libm::cos(t), 0.0, 2.0 * libm::sin(t)]).collect();
-    let mesh = made(&tube(&circle, Radii::All(0.5), Curve::CatmullRom, true));
+    let mesh = made(&tube(&circle, Radii::All(0.5), TubeCurve::CatmullRom, true));
     check(&mesh);
     assert_eq!(open_edges(&mesh), 0);
     let truth = 2.0 * PI * PI * 2.0 * 0.25;
@@ -97,7 +97,7 @@ fn tubes_along_curves() {
         })
         .collect();
     let radii = (0..24).map(|k| 0.2 + 0.1 * f64::from(k % 2)).collect();
-    let mesh = made(&tube(&knot, Radii::Each(radii), Curve::CatmullRom, true));
+    let mesh = made(&tube(&knot, Radii::Each(radii), TubeCurve::CatmullRom, true));
     check(&mesh);
     assert_eq!(open_edges(&mesh), 0);
     // No stripe goes round it: the seam of u is as long as the tube, not longer by turns about it.
@@ -127,7 +127,7 @@ fn tubes_along_curves() {
     let tapered = made(&tube(
         &[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
         Radii::Each(vec![0.3, 0.1, 0.1]),
-        Curve::CatmullRom,
+        TubeCurve::CatmullRom,
         false,
     ));
     let between = tapered.positions.iter().filter(|p| (1.0..2.0).contains(&p[0]));
@@ -140,7 +140,7 @@ fn tubes_without_a_path_are_told() {
         let fault = tube.mesh(Span::NONE).expect_err("it is told");
         format!("{}: {}", fault.code, fault.message)
     };
-    let of = |points: &[Vector], radius: Radii, closed: bool| message(&tube(points, radius, Curve::Linear, closed));
+    let of = |points: &[Vector], radius: Radii, closed: bool| message(&tube(points, radius, TubeCurve::Linear, closed));
     let [a, b] = [[0.0; 3], [1.0, 0.0, 0.0]];
     assert_eq!(of(&[a, a], Radii::All(1.0), false), "E0542: the path of the tube has no extent");
     let two = "E0542: the path of the closed tube goes through two points only";

@@ -4,13 +4,13 @@ use super::round::tube;
 use super::{Vector, dot, open_edges, volume};
 use crate::MeshData;
 use crate::shapes::Triangulated;
-use scene_format::desc::{Curve, Radii, Tube};
+use scene_format::desc::{Curve, Radii, Tube, TubeCurve};
 use scene_format::diagnostic::Span;
 use scene_format::path::{Ends, pieces};
 use std::f64::consts::{PI, TAU};
 
 /// Numbers that look random, from 0 to 1.
-struct Random(u64);
+pub(super) struct Random(pub u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
@@ -18,7 +18,7 @@ impl Random {
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 
@@ -73,7 +73,7 @@ fn outside(at: Vector, balls: &[(Vector, f64)]) -> f64 {
 }
 
 /// Points at both sides of the surface, and elsewhere, are where the balls say; vertices are not outside.
-fn holds(shape: &Tube, balls: &[(Vector, f64)], what: &str) -> Result<(), String> {
+pub(super) fn holds(shape: &Tube, balls: &[(Vector, f64)], what: &str) -> Result<(), String> {
     let mesh = shape.mesh(Span::NONE).map_err(|fault| format!("{what}: {}", fault.message))?;
     if open_edges(&mesh) != 0 {
         return Err(format!("{what}: it is open"));
@@ -87,7 +87,7 @@ fn holds(shape: &Tube, balls: &[(Vector, f64)], what: &str) -> Result<(), String
     let step = TAU / f64::from(shape.segments.value);
     let near = 2.2 * size * (1.0 - libm::cos(0.5 * step));
     // Of curves the path itself has chords.
-    let near = if shape.curve == Curve::Linear { near } else { 0.004 };
+    let near = if shape.curve == TubeCurve::Linear { near } else { 0.004 };
     let mut random = Random(7);
     for k in 0..150 {
         let ball = &balls[(random.next() * balls.len() as f64) as usize % balls.len()];
@@ -109,7 +109,7 @@ fn holds(shape: &Tube, balls: &[(Vector, f64)], what: &str) -> Result<(), String
 }
 
 fn check_linear(points: &[Vector], radii: &[f64], closed: bool) -> Result<(), String> {
-    let mut tube = tube(points, Radii::Each(radii.to_vec()), Curve::Linear, closed);
+    let mut tube = tube(points, Radii::Each(radii.to_vec()), TubeCurve::Linear, closed);
     tube.segments = 64.into();
     holds(&tube, &balls(points, radii, closed), &format!("{points:?} {radii:?} {closed}"))
 }
@@ -184,7 +184,7 @@ fn curves_are_what_balls_pass_over() {
                 (0..=count as u32).map(move |n| (plus(piece.from, way, f64::from(n) / count), radius))
             })
             .collect();
-        let mut shape = tube(&points, Radii::All(radius), Curve::CatmullRom, false);
+        let mut shape = tube(&points, Radii::All(radius), TubeCurve::CatmullRom, false);
         shape.segments = 64.into();
         faults.extend(holds(&shape, &balls, &format!("{points:?}")).err());
     }
@@ -195,7 +195,7 @@ fn curves_are_what_balls_pass_over() {
 #[test]
 fn radii_of_smooth_tubes_swell_smoothly() {
     let points = [[-1.0, 0.0, 0.0], [0.0; 3], [1.0, 0.0, 0.0]];
-    let mesh = tube(&points, Radii::Each(vec![0.1, 0.4, 0.1]), Curve::CatmullRom, false).mesh(Span::NONE);
+    let mesh = tube(&points, Radii::Each(vec![0.1, 0.4, 0.1]), TubeCurve::CatmullRom, false).mesh(Span::NONE);
     let mesh = mesh.expect("a mesh");
     // Half way of a cubic that is flat in the middle and 0.3 steep at the end: 0.1 + 0.15 + (0.3 - 0)/8.
     let widest = |x: f64| {
@@ -214,7 +214,7 @@ fn elbows_with_room_have_nothing_within() {
     {
         let points = bent(degrees);
         for segments in [32, 128] {
-            let mut shape = tube(&points, Radii::Each(radii.to_vec()), Curve::Linear, false);
+            let mut shape = tube(&points, Radii::Each(radii.to_vec()), TubeCurve::Linear, false);
             shape.segments = segments.into();
             let mesh = shape.mesh(Span::NONE).expect("a mesh");
             super::check(&mesh);
@@ -266,7 +266,7 @@ fn normals_of_cones_are_not_askew() {
         assert!(worst(&lathe, [-1.0, 6.0]) < ASKEW, "{r} {s}: {}", worst(&lathe, [-1.0, 6.0]));
         // Balls that give a cone.
         let points = [[0.0; 3], [0.0, 5.0, 0.0]];
-        let tube = tube(&points, Radii::Each(vec![r, s]), Curve::Linear, false).mesh(Span::NONE).expect("a mesh");
+        let tube = tube(&points, Radii::Each(vec![r, s]), TubeCurve::Linear, false).mesh(Span::NONE).expect("a mesh");
         assert!(worst(&tube, [-2.0, 7.0]) < ASKEW, "{r} {s}: {}", worst(&tube, [-2.0, 7.0]));
     }
     // All but e^-2 of a sharp tip.
@@ -280,7 +280,7 @@ fn normals_of_cones_are_not_askew() {
 fn texture_coordinates_go_on_over_elbows() {
     let square = [[0.0; 3], [2.0, 0.0, 0.0], [2.0, 0.0, 2.0], [0.0, 0.0, 2.0]];
     for closed in [false, true] {
-        let mesh = tube(&square, Radii::All(0.4), Curve::Linear, closed).mesh(Span::NONE).expect("a mesh");
+        let mesh = tube(&square, Radii::All(0.4), TubeCurve::Linear, closed).mesh(Span::NONE).expect("a mesh");
         let uvs = mesh.uv_triangles.as_ref().expect("some");
         let whole = if closed { 8.0 + 4.0 * 0.4 * PI / 2.0 } else { 6.0 + 2.0 * 0.4 * PI / 2.0 + 0.4 * PI };
         let (mut steepest, mut flattest) = (0.0_f64, f64::INFINITY);
@@ -307,7 +307,7 @@ fn texture_coordinates_go_on_over_elbows() {
 fn of_balls_in_one_place_the_largest_counts() {
     let [a, b, c] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let of = |points: &[Vector], radii: &[f64], closed: bool| {
-        let mesh = tube(points, Radii::Each(radii.to_vec()), Curve::Linear, closed).mesh(Span::NONE);
+        let mesh = tube(points, Radii::Each(radii.to_vec()), TubeCurve::Linear, closed).mesh(Span::NONE);
         mesh.expect("a mesh").positions
     };
     assert_eq!(of(&[a, b, b, c], &[0.1, 0.1, 0.3, 0.1], false), of(&[a, b, c], &[0.1, 0.3, 0.1], false));
@@ -326,7 +326,7 @@ fn smooth_radii_that_swallow() {
         let radius = 0.1 + 0.8 * (t3 - 2.0 * t2 + t) + 0.8 * (3.0 * t2 - 2.0 * t3);
         balls.extend([([t - 1.0, 0.0, 0.0], radius), ([1.0 - t, 0.0, 0.0], radius)]);
     }
-    let mut shape = tube(&points, Radii::Each(vec![0.1, 0.9, 0.1]), Curve::CatmullRom, false);
+    let mut shape = tube(&points, Radii::Each(vec![0.1, 0.9, 0.1]), TubeCurve::CatmullRom, false);
     shape.segments = 64.into();
     assert_eq!(holds(&shape, &balls, "swallowed"), Ok(()));
 }

@@ -20,12 +20,12 @@ mod swept;
 use self::elbow::circles;
 use self::swept::Swept;
 use super::axis::cross;
-use super::{Triangulated, check_count};
+use super::{MOST_TRIANGLES, Triangulated, check_count};
 use crate::data::MeshData;
-use scene_format::Diagnostic;
-use scene_format::desc::{Curve, Tube};
+use scene_format::desc::{Tube, TubeCurve};
 use scene_format::diagnostic::Span;
-use scene_format::path::{Ends, Piece, Point3, dot, length, pieces, sub, turn, unit};
+use scene_format::path::{Ends, Piece, Point3, bezier_pieces, dot, length, pieces, sub, turn, unit};
+use scene_format::{Diagnostic, codes};
 use std::f64::consts::TAU;
 
 impl Triangulated for Tube {
@@ -42,11 +42,19 @@ impl Triangulated for Tube {
         let (points, radii) = self.path(span)?;
         let segments = self.segments.value;
         let step = TAU / f64::from(segments);
-        let smooth = self.curve == Curve::CatmullRom;
+        let smooth = self.curve != TubeCurve::Linear;
         let ends = if self.closed { Ends::Joined } else { Ends::Open };
-        let pieces = pieces(&points, ends, smooth, step);
+        let pieces = match self.curve {
+            TubeCurve::Bezier => bezier_pieces(&points, step, (MOST_TRIANGLES / u64::from(2 * segments)) as usize),
+            TubeCurve::Linear | TubeCurve::CatmullRom => pieces(&points, ends, smooth, step),
+        };
         let too_many = |triangles: u64| check_count(triangles, "tube", at, "fewer points, or fewer `segments`");
         too_many(2 * u64::from(segments) * pieces.len() as u64)?;
+        if pieces.is_empty() {
+            // A loop of handles so short that rounding leaves nothing of it.
+            let fault = Diagnostic::error(codes::NO_EXTENT, at, "the path of the tube has no extent");
+            return Err(Box::new(fault.expected("two points or more that are not the same")));
+        }
         let joints = joints(&pieces, &radii, self, step);
         let circles: Vec<Vec<_>> = joints.iter().map(|joint| circles(joint, segments)).collect();
         let ends = if self.closed { 0 } else { u64::from(segments) / 2 };
@@ -146,7 +154,7 @@ impl<'a> Radius<'a> {
     fn new(pieces: &[Piece<3>], radii: &'a [f64], tube: &Tube) -> Self {
         let mut spans = vec![0.0; if tube.closed { radii.len() } else { radii.len() - 1 }];
         pieces.iter().for_each(|piece| spans[piece.number] += length(sub(piece.to, piece.from)));
-        let smooth = tube.curve == Curve::CatmullRom;
+        let smooth = tube.curve != TubeCurve::Linear;
         let slopes = smooth.then(|| monotone(radii, &spans, tube.closed));
         Radius { radii, spans, slopes }
     }
@@ -173,7 +181,7 @@ impl<'a> Radius<'a> {
 /// Butland, "A method for constructing local monotone piecewise cubic interpolants", 1984).
 fn monotone(values: &[f64], ways: &[f64], closed: bool) -> Vec<f64> {
     let count = values.len();
-    let chord = |k: usize| (values[(k + 1) % count] - values[k]) / ways[k];
+    let chord = |k: usize| if ways[k] > 0.0 { (values[(k + 1) % count] - values[k]) / ways[k] } else { 0.0 };
     let slope = |k: usize| {
         if !closed && (k == 0 || k + 1 == count) {
             return if k == 0 { chord(0) } else { chord(k - 1) };

@@ -19,6 +19,8 @@ use std::sync::Arc;
 pub struct Mesh {
     /// Its triangles.
     pub source: MeshSource,
+    /// Of a file only this part.
+    pub part: Part,
     /// Its material.
     pub material: MaterialRef,
     /// Transforms, applied first to last.
@@ -61,6 +63,10 @@ scene_struct! {
         /// are taken, where its nodes place them, and the colours of its vertices where a `VertexColor` reads them; its
         /// materials, lights, cameras, skins, morph targets and animations are not.
         file: WrittenFile = WrittenFile::default() => Rule::file(FileKind::Mesh);
+        /// With `file`: only this part of it, as if the file held nothing else. In OBJ the faces of objects (`o`) and
+        /// groups (`g`) of this name, in glTF nodes, with all that is below them, and meshes of this name; all of them
+        /// where several have it. It stays where the file has it. Other formats have no parts.
+        part: Part = Part::default();
         /// Instead of a file: the points of the mesh, three or more.
         points: Points = Points::default() => Rule::point();
         /// With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen
@@ -105,6 +111,41 @@ impl ShapeWords for Mesh {
 
 impl Faulty for Mesh {}
 
+/// The name of a part of a file, if one is wanted alone. Eight bytes long.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Part(Option<Box<Spanned<String>>>);
+
+impl Part {
+    /// The name, and where it is written; `None`: the whole file.
+    pub fn name(&self) -> Option<&Spanned<String>> {
+        self.0.as_deref()
+    }
+}
+
+impl<T: Into<String>> From<Option<T>> for Part {
+    fn from(name: Option<T>) -> Self {
+        Part(name.map(|name| Box::new(name.into().into())))
+    }
+}
+
+impl Words for Part {
+    const TYPE: Type = Type::Optional(&Type::Text);
+
+    fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if item.is_word("None") {
+            return Some(Part::default());
+        }
+        let item = item.without_some();
+        let span = item.span();
+        let value = reader.text(item, at)?.into_owned();
+        Some(Part(Some(Box::new(Spanned { value, span }))))
+    }
+
+    fn form(&self, _all: bool) -> Form {
+        self.name().map_or(Form::word("None"), |name| Form::Text(name.value.clone()))
+    }
+}
+
 /// What `file` holds; nothing where it is not written.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(crate) struct WrittenFile(Option<Spanned<Arc<Path>>>);
@@ -127,7 +168,7 @@ impl Words for Mesh {
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         reader.points = None;
         let words = MeshWords::read(reader, item, at)?;
-        let MeshWords { file, points, faces, colors, material, transform, placements, .. } = words;
+        let MeshWords { file, part, points, faces, colors, material, transform, placements, .. } = words;
         let MeshWords { instances, shading, camera_visible, name, .. } = words;
         let colors = match colors.0 {
             Written::Not => Vec::new(),
@@ -142,6 +183,13 @@ impl Words for Mesh {
             }
             Written::As(colors) => colors.value,
         };
+        if let (None, Written::As(_), Some(name)) = (&file.0, &points.0, part.name()) {
+            reader.report(
+                Diagnostic::error(codes::NO_USE, name.span, "a mesh has both `points` and `part`")
+                    .expected("`part` with `file`: the name of an object, a group or a node in it"),
+            );
+            return None;
+        }
         let source = match (file.0, points.0, faces.0) {
             (Some(file), Written::Not, Written::Not) => MeshSource::File(file),
             (Some(_), Written::Not, Written::As(faces)) => {
@@ -167,12 +215,13 @@ impl Words for Mesh {
             // None was written, two were, or one is wrong: reported.
             _ => return None,
         };
-        Some(Mesh { source, material, transform, placements, instances, shading, camera_visible, name })
+        Some(Mesh { source, part, material, transform, placements, instances, shading, camera_visible, name })
     }
 
     fn form(&self, all: bool) -> Form {
         let mut words = MeshWords {
             file: WrittenFile::default(),
+            part: self.part.clone(),
             points: Points::default(),
             faces: WrittenFaces::default(),
             colors: Colors::default(),

@@ -27,7 +27,7 @@ const CODES: [Code; 3] = [codes::MESH_ODDITIES, codes::MTL_UNSUPPORTED, codes::G
 ///
 /// # Errors
 /// As [`mesh::load`].
-pub fn load_mesh(store: &dyn Store, path: &Path, wanted: Wanted) -> Result<Arc<MeshData>, MeshError> {
+pub fn load_mesh(store: &dyn Store, path: &Path, wanted: Wanted<'_>) -> Result<Arc<MeshData>, MeshError> {
     let (stamp, format) = (Stamp::of(path).ok(), MeshFormat::of(path));
     // What a glTF file holds lies beside it.
     let is_large = |stamp: &Stamp| stamp.bytes >= LEAST_BYTES || format == Some(MeshFormat::Gltf);
@@ -37,7 +37,11 @@ pub fn load_mesh(store: &dyn Store, path: &Path, wanted: Wanted) -> Result<Arc<M
     let began = SystemTime::now();
     let what = path.display().to_string();
     let with: &[u8] = if wanted.colors { b"colors" } else { b"" };
-    let of = |hash: &ContentHash| Key::new(KeptKind::Mesh, &[format.extension().as_bytes(), with, hash]);
+    let of = |hash: &ContentHash| {
+        let whole = [format.extension().as_bytes(), with, hash];
+        let part = wanted.part.map(str::as_bytes);
+        Key::new(KeptKind::Mesh, &whole.into_iter().chain(part).collect::<Vec<_>>())
+    };
     let known = store.recorded(path);
     if let Some(mesh) = known.and_then(|hash| taken(store, &of(&hash), path, &what)) {
         return Ok(mesh);

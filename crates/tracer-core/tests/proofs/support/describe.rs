@@ -3,8 +3,8 @@
 use scene_format::SceneDesc;
 use scene_format::desc::{
     Albedo, Amount, BlinnPhong, Color, Diffuse, Effects, Image, Instances, Light, LightGroup, Material, MaterialRef,
-    Mesh, MeshSource, Mirror, Name, Object, PixelFilter, Placements, Render, Shading, Sphere, SphereLight, Texture,
-    TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3,
+    Mesh, MeshSource, Mirror, Name, Object, Part, PixelFilter, Placements, Render, Shading, Sphere, SphereLight,
+    Texture, TextureFilter, TextureWrap, ThinLens, Transform, Transparent, Vec3,
 };
 use scene_format::diagnostic::Spanned;
 use std::path::Path;
@@ -93,6 +93,7 @@ pub fn placed(
 ) -> Object {
     Object::Mesh(Mesh {
         source: MeshSource::File(file.to_owned().into()),
+        part: Part::default(),
         material: inline(material),
         transform: transform.into_iter().map(Spanned::from).collect(),
         placements,
