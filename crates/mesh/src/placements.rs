@@ -20,7 +20,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use rayon::prelude::*;
 use scene_format::Diagnostic;
 use scene_format::codes;
-use scene_format::diagnostic::Span;
+use scene_format::diagnostic::{Excerpt, Span};
 use std::path::{Path, PathBuf};
 
 const BLANKS: Blanks = Blanks { comma: true, continuation: false };
@@ -52,6 +52,8 @@ pub enum PlacementsError {
         message: String,
         /// What was expected.
         expected: String,
+        /// The line, with what is meant of it, where it can be shown.
+        excerpt: Option<Box<Excerpt>>,
     },
     /// The file has no placement.
     #[error("{}: the file has no placements", path.display())]
@@ -66,10 +68,11 @@ impl PlacementsError {
     pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
         match self {
             PlacementsError::File(error) => error.to_diagnostic(span),
-            PlacementsError::Broken { path, line, message, expected } => {
+            PlacementsError::Broken { path, line, message, expected, excerpt } => {
                 Diagnostic::error(codes::BROKEN_PLACEMENTS, span, format!("the placements file is broken: {message}"))
                     .expected(expected.clone())
                     .at_line(path, *line)
+                    .showing(excerpt.as_deref().cloned())
             }
             PlacementsError::Empty { path } => {
                 Diagnostic::error(codes::BROKEN_PLACEMENTS, span, self.to_string()).expected(EXPECTED).at_line(path, 0)
@@ -123,9 +126,9 @@ pub fn parse_placements(text: &[u8], path: &Path) -> Result<Vec<DAffine3>, Place
         })
         .collect();
     if let Some(fault) = faults.into_iter().flatten().next() {
-        let line = fault.line_in(text);
+        let (line, excerpt) = (fault.line_in(text), Excerpt::around(text, fault.at).map(Box::new));
         let Fault { message, expected, .. } = *fault;
-        return Err(PlacementsError::Broken { path: path.to_owned(), line, message, expected });
+        return Err(PlacementsError::Broken { path: path.to_owned(), line, message, expected, excerpt });
     }
     if placements.is_empty() {
         return Err(PlacementsError::Empty { path: path.to_owned() });

@@ -217,6 +217,7 @@ fn arithmetic_without_quotes() {
     for written in ["Translate(x: 1, y: 2, z: 3)", "translate(1, 2, 3)", "Translate((1, 2, 3))"] {
         check(&[(&lone(written), &lone("[Translate((1, 2, 3))]"))], Syntax::Ron);
     }
+    check(&[(&lone("[Rotate(30, (0, 1, 0))]"), &lone("[Rotate(axis: (0, 1, 0), degrees: 30)]"))], Syntax::Ron);
     check(&[(&ball("(0, 0, 0)", "\"2*gap\""), &ball("(0, 0, 0)", "\"=2*gap\""))], Syntax::Ron);
     // Texts and units stay what they are.
     for written in [ball("(0, 0, 0)", "my-file.obj"), ball("(0, 0, 0)", "a/b.obj"), ball("(0, 0, 0)", "5 cm")] {

@@ -462,3 +462,40 @@ fn marks_are_points_with_names() {
     let masks = faults(r#"masks: ["nothing"]"#);
     assert_eq!(masks, ["E0410 output.masks[0]: no object has the name \"nothing\""]);
 }
+
+#[test]
+fn more_kinds_and_fields() {
+    let cases = [
+        ("Bevel(size: 1)", "rounding"),
+        ("Instances()", "placements"),
+        ("Empty()", "Group"),
+        ("Line(from: (0, 0, 0), to: (1, 0, 0))", "Tube"),
+        ("Tetrahedron()", "`Mesh`"),
+        ("Box(size: 1, material: AreaLightSource(radiance: 3))", "Emissive"),
+        ("Box(size: 1, material: MixShader())", "Mix"),
+        ("Box(size: 1, material: Clearcoat())", "BlinnPhong"),
+        ("Box(size: 1, material: Pigment())", "albedo"),
+        ("Box(size: 1, material: Transparent(ior: 1.5, attenuation_color: 1))", "transmittance"),
+        ("Box(size: 1, material: Transparent(ior: 1.5, roughness: 0.1))", "smooth"),
+        ("Box(size: 1, material: Transparent(ior: 1.5, priority: 1))", "leave it out"),
+        ("Box(size: 1, material: Diffuse(albedo: Constant(value: 1)))", "by itself"),
+        ("Box(size: 1, material: Diffuse(albedo: Volume()))", "Noise"),
+        ("Box(size: 1, parent: \"a\")", "Group"),
+        ("Box(size: 1, velocity: (1, 0, 0))", "time"),
+        ("Box(size: 1, placements: [Array(count: 3)])", "Grid"),
+    ];
+    check(&cases, |object| scene("", "", object));
+    let cases = [
+        ("roll: 3", "`up`"),
+        ("focal_point: (0, 0, 0)", "focus_on"),
+        ("interocular: 0.06", "Stereo"),
+        ("projection: Isometric(height: 3)", "Orthographic"),
+    ];
+    check(&cases, |camera| scene("", camera, "Sphere(center: (3, 0, 0), radius: 1)"));
+    let cases = [("title: \"a\"", "comment"), ("driver: 1", "vars"), ("sky: 1", "Environment")];
+    let with = |top: &str| {
+        let background = if top.starts_with("sky") { "" } else { "background: 1, " };
+        format!("Scene({top}, {background}objects: [Sphere(center: (0, 0, 0), radius: 1)])")
+    };
+    check(&cases, with);
+}

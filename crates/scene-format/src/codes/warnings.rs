@@ -48,7 +48,16 @@ codes! {
     LIGHT_SHUT_IN "W0307" "a light is shut in";
     /// The rendered picture is black: no light reaches what the camera sees.
     ALL_BLACK "W0308" "the picture is black";
-    /// The rendered picture shows nothing but the background: the camera looks past all objects.
+    /// The camera looks past all objects: all of them lie beside the view, or behind it, or the rendered picture shows
+    /// nothing but the background.
+    ///
+    /// ```text
+    /// Scene(
+    ///     background: 1,
+    ///     camera: Camera(position: (0, 0, 5), look_at: (0, 0, 9)),
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
     NOTHING_IN_VIEW "W0309" "nothing is in view";
     /// `Transparent` on a shape that has no inside, a disk, a rectangle, a plane or a cylinder without caps: light is
     /// bent there once, and never back.

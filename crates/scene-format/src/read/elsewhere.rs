@@ -458,7 +458,7 @@ fn matrix(rows: &str) -> Meant {
     }
 }
 
-/// `Rotate((0, 30, 0))`, an angle an axis, and `Rotate((0, 1, 0), 30)`.
+/// `Rotate((0, 30, 0))`, an angle an axis, `Rotate((0, 1, 0), 30)` and `Rotate(30, (0, 1, 0))`.
 fn turned(body: Item<'_, '_>, list: Option<&[&str]>) -> Option<Meant> {
     if body.kind() != Kind::Tuple || body.name().is_none() {
         return None;
@@ -467,6 +467,11 @@ fn turned(body: Item<'_, '_>, list: Option<&[&str]>) -> Option<Meant> {
     let (first, second, third) = (children.next()?, children.next(), children.next());
     if let Some(&[x, y, z]) = list {
         return angles([x, y, z]);
+    }
+    if let (Some(_), Some(axis), None) = (first.number(), second, third)
+        && let Ok(axis) = <[&str; 3]>::try_from(numbers(axis)?)
+    {
+        return Some(rotation(axis, first.lexeme(), true));
     }
     let three: [&str; 3] = numbers(first).filter(|_| first.name().is_none())?.try_into().ok()?;
     match (second, third) {

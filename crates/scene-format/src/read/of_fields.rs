@@ -20,6 +20,9 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
             "glass takes nothing on the way through: it is coloured by `transmittance`, once at each surface"
         }
         "priority" if has("ior") => "which of two glasses holds where they meet needs no number: leave it out",
+        "roughness" | "glossiness" | "smoothness" if def.name == "Transparent" => {
+            "glass is smooth here: Transparent(ior: 1.5)"
+        }
         "alpha" | "alpha_x" | "alpha_y" if def.name == "Conductor" => "`roughness` is the root of alpha: 0.3 for 0.09",
         "anisotropy" | "anisotropic" if def.name == "Conductor" => "metal is as rough in all directions: `roughness`",
         "mask" | "normaltexture" | "opacity_mask" if has("albedo") || has("material") => {

@@ -19,6 +19,7 @@ mod meshes;
 mod moments;
 mod nearby;
 mod other_scale;
+mod out_of_view;
 mod patterns;
 mod placing;
 mod polygonal;
@@ -331,6 +332,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
         occluders: hierarchy.filter(|_| full).and_then(|accel| OccluderTable::new(accel, OCCLUDERS)).map(Arc::new),
         acceleration: way,
     };
+    diagnostics.extend(out_of_view::warning(desc, &rendered));
     let light_groups = desc.output.light_groups.then(|| light_groups::of(desc, &rendered));
     Ok(Scene {
         rendered,

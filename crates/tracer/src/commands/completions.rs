@@ -2,10 +2,12 @@
 
 use crate::args::{Cli, CompletionsArgs};
 use crate::failure::{Failure, exit};
-use clap::{CommandFactory, ValueEnum};
+use clap::builder::PossibleValuesParser;
+use clap::{Arg, Command, CommandFactory, ValueEnum, ValueHint};
 use clap_complete::{Generator, Shell, generate};
 use std::io::Write;
 use std::process::ExitCode;
+use tracer_core::LayerSet;
 
 /// A shell whose command lines are completed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -42,6 +44,36 @@ pub(super) fn run(args: &CompletionsArgs) -> Result<ExitCode, Failure> {
 
 fn script(shell: impl Generator) -> Vec<u8> {
     let mut script = Vec::new();
-    generate(shell, &mut Cli::command(), "tracer", &mut script);
+    generate(shell, &mut completed(Cli::command()), "tracer", &mut script);
     script
+}
+
+/// With all that can be chosen, and no names of files where none stand.
+fn completed(command: Command) -> Command {
+    let name = command.get_name().to_owned();
+    command.mut_args(|arg| with_values(arg, &name)).mut_subcommands(completed)
+}
+
+fn with_values(arg: Arg, command: &str) -> Arg {
+    /// What a value is called that is a file or a folder.
+    const PATHS: [&str; 7] = ["FILE", "DIR", "FOLDER", "SCENE", "PICTURE", "PART", "PATH"];
+    let choices: Vec<String> = match arg.get_id().as_str() {
+        "layers" | "show" => LayerSet::all().names().map(str::to_owned).collect(),
+        "bits" => ["8", "16"].map(str::to_owned).to_vec(),
+        "format" if ["render", "merge", "slurm"].contains(&command) => {
+            ["png", "exr", "hdr", "pfm"].map(str::to_owned).to_vec()
+        }
+        "code" if command == "explain" => {
+            let codes = scene_format::codes::CODES.iter().map(|entry| entry.code.as_str().to_owned());
+            scene_format::words().into_iter().chain(codes).collect()
+        }
+        _ => Vec::new(),
+    };
+    if !choices.is_empty() {
+        return arg.value_parser(PossibleValuesParser::new(choices));
+    }
+    let takes = arg.get_action().takes_values() && !arg.is_positional() && arg.get_possible_values().is_empty();
+    let is_path = arg.get_value_names().into_iter().flatten().any(|name| PATHS.iter().any(|path| name.contains(path)));
+    let is_path = is_path && !arg.get_value_names().into_iter().flatten().any(|name| name.contains('='));
+    if takes && !is_path { arg.value_hint(ValueHint::Other) } else { arg }
 }

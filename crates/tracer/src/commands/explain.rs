@@ -15,9 +15,15 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode, Failure> {
             }
         }
         Some(asked) => {
-            let number = asked.trim().parse::<u16>().ok();
-            let codes: Vec<&Entry> = match number {
-                Some(number) => ["E", "W"].iter().filter_map(|kind| find(&format!("{kind}{number:04}"))).collect(),
+            let asked = asked.trim();
+            let digits = asked.trim_start_matches(['E', 'W', 'e', 'w']);
+            let kinds = match &asked[..asked.len() - digits.len()] {
+                "" => &["E", "W"][..],
+                "E" | "e" => &["E"],
+                _ => &["W"],
+            };
+            let codes: Vec<&Entry> = match digits.parse::<u16>().ok() {
+                Some(number) => kinds.iter().filter_map(|kind| find(&format!("{kind}{number:04}"))).collect(),
                 None => find(asked).into_iter().collect(),
             };
             for (k, code) in codes.iter().enumerate() {

@@ -247,6 +247,20 @@ fn schema_completions_and_man_pages() {
         let script = sandbox.run(&["completions", shell]).ends(0).silent().out_text();
         assert!(COMMANDS.iter().all(|command| script.contains(command)), "{shell}");
     }
+    // What can be chosen is offered, and no files where none stand.
+    let script = sandbox.run(&["completions", "bash"]).ends(0).silent().out_text();
+    let of_render = script.split_once("\n        tracer__subcmd__render)").map_or(&*script, |(_, rest)| rest);
+    let after = |option: &str| {
+        let from = of_render.find(&format!("{option})")).unwrap_or_else(|| panic!("{option}: {of_render}"));
+        of_render[from..].lines().take(9).collect::<String>()
+    };
+    assert!(after("--layers").contains("albedo normal depth") && after("--bits").contains("8 16"), "{script}");
+    assert!(after("--format").contains("png exr") && !after("--samples").contains("compgen -f"), "{script}");
+    assert!(after("--report").contains("compgen -f"), "{script}");
+    assert!(script.contains("Sphere") && script.contains("E0102"));
+    for code in ["E0102", "e0102", "e102", "102"] {
+        assert!(sandbox.run(&["explain", code]).ends(0).out_text().starts_with("E0102: "), "{code}");
+    }
     let page = sandbox.run(&["man"]).ends(0).silent().out_text();
     let sections = [".TH tracer 1", ".SH EXAMPLES", ".SH \"EXIT STATUS\"", ".SH FILES", ".SH ENVIRONMENT"];
     assert!(sections.iter().all(|section| page.contains(section)) && !page.contains("EXTRA"), "{page}");

@@ -143,7 +143,27 @@ fn empty_pictures_are_told() {
     let behind = "Sphere(center: (0, 1, 20), radius: 1)";
     assert_eq!(codes(&sandbox, &scene("background: (0.2, 0.4, 0.8),", behind)), ["W0309"]);
     let lamp = "lights: [SphereLight(center: (0, 1, 30), radius: 0.5, radiance: 10)],";
-    assert_eq!(codes(&sandbox, &scene(lamp, behind)), ["W0308"]);
+    assert_eq!(codes(&sandbox, &scene(lamp, behind)), ["W0309"]);
+    let away = lamp.replace("30)", "-30)");
+    assert_eq!(codes(&sandbox, &scene(&away, "Sphere(center: (0, 0, 0), radius: 1)")), ["W0308"]);
+    // That nothing can be in view is told before the picture is made: behind, aside, above; not what is in view in part.
+    let check = |camera: &str, objects: &str| {
+        let text = format!("Scene(background: 0.5, camera: Camera({camera}), objects: [{objects}])");
+        sandbox.write("odd.ron", text);
+        sandbox.run(&["check", "odd.ron"]).ends(0).err.contains("W0309")
+    };
+    let ball = |center: &str| format!("Sphere(center: {center}, radius: 1)");
+    for projection in ["fov: 40", "projection: Orthographic(height: 3)"] {
+        let camera = format!("position: (0, 0, 8), look_at: (0, 0, 0), {projection}");
+        for away in ["(0, 0, 10)", "(60, 0, 0)", "(0, -60, 0)", "(0, 60, -1)"] {
+            assert!(check(&camera, &ball(away)), "{projection} {away}");
+        }
+        for seen in ["(0, 0, 0)", "(1.5, 0, 0)", "(0, 2, 0)"] {
+            assert!(!check(&camera, &ball(seen)), "{projection} {seen}");
+            assert!(!check(&camera, &format!("{}, {}", ball("(60, 0, 0)"), ball(seen))), "{projection} {seen}");
+        }
+        assert!(!check(&camera, "Plane(point: (0, -9, 0))"));
+    }
     assert!(codes(&sandbox, &scene(lamp, "Sphere(center: (0, 0, 0), radius: 1)")).is_empty());
     // A background does not help who stands within something, whatever it is.
     let within = "Capsule(from: (0, 0, 6), to: (0, 2, 6), radius: 1)";

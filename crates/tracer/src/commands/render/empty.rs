@@ -5,7 +5,11 @@ use scene_format::{Diagnostic, SceneDesc, codes};
 use tracer_core::{Crop, Film};
 
 /// What is said of a picture that is black, white, or nothing but background. A part of one (`--crop`) may well be.
-pub(super) fn warning(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
+/// `told`: what was said before it was made.
+pub(super) fn warning(film: &Film, desc: &SceneDesc, told: &[Diagnostic]) -> Option<Diagnostic> {
+    if told.iter().any(|fault| fault.code == codes::NOTHING_IN_VIEW) {
+        return None;
+    }
     if film.crop() != Crop::whole(film.size()) {
         return None;
     }

@@ -247,7 +247,7 @@ fn one(
         shell.say(&denoised.to_text());
     }
     tell_of(&film, args, &desc, shell);
-    shell.diagnostics(empty::warning(&film, &desc).as_slice(), &desc.sources, args.scene.diagnostics);
+    shell.diagnostics(empty::warning(&film, &desc, &scene.warnings).as_slice(), &desc.sources, args.scene.diagnostics);
     if let Some(part) = part.filter(|_| shell.is_told()) {
         shell.say(&format!("{names} in {:.2} s: {}", seconds.total, part_told(Some(part))));
     } else if shell.is_told() {

@@ -1,0 +1,68 @@
+//! Scenes of which the picture shows nothing, known before it is made: all that they have lies beside the view.
+
+use glam::DVec3;
+use scene_format::desc::Background;
+use scene_format::{Diagnostic, SceneDesc, codes};
+use tracer_kernels::scene::{Camera, Projection, Scene};
+
+/// Warns where all boxes of the scene lie beyond one of the planes that bound the view. Where something is in view in
+/// part, behind others, or between boxes, that is for the picture to tell.
+pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
+    // A sky may be all that is meant.
+    if matches!(desc.background, Background::Environment(_)) {
+        return None;
+    }
+    // What has no end is in view somewhere.
+    if scene.shapes.iter().any(|shape| shape.unit.is_endless()) || scene.camera.stereo.is_some() {
+        return None;
+    }
+    let few = scene.size[0].min(scene.size[1]).max(1);
+    // A pixel's filter reaches some pixels beyond the border.
+    let margin = 0.02 + 16.0 / f64::from(few);
+    let beside = beyond_one_plane(&scene.camera, margin)?;
+    let boxes = scene.second_boxes.as_ref();
+    let of_tree = boxes.into_iter().flat_map(|boxes| {
+        (0..boxes.len).map(move |k| {
+            let [x, x1, y, y1, z, z1] = boxes.planes.map(|column| f64::from(column[k]));
+            [DVec3::new(x, y, z), DVec3::new(x1, y1, z1)]
+        })
+    });
+    let of_spheres = scene.spheres.iter().skip(scene.tables.spheres.in_tree).map(|sphere| {
+        let (center, radius) = (DVec3::from(sphere.center), DVec3::splat(sphere.radius.abs()));
+        [center - radius, center + radius]
+    });
+    let mut any = false;
+    let mut all = of_tree.chain(of_spheres).inspect(|_| any = true);
+    let outside = all.all(|ends| beside(&ends));
+    (outside && any).then(|| {
+        let message = "nothing is in view: all that the scene has lies beside or behind the view";
+        Diagnostic::warning(codes::NOTHING_IN_VIEW, desc.camera.look_at.span, message)
+            .expected("objects between the camera and where it looks")
+            .hint("set `look_at` to the middle of an object; `tracer info` tells where the objects are")
+    })
+}
+
+/// Whether a box, given by two of its corners, lies beyond a plane of the view; `None`: the view has no such planes.
+fn beyond_one_plane(camera: &Camera, margin: f64) -> Option<impl Fn(&[DVec3; 2]) -> bool> {
+    // Across the view x = a z + b at the border, z being the depth.
+    let (shift, flat) = match camera.projection {
+        Projection::Perspective { shift, lens: None } => (shift, false),
+        Projection::Orthographic => ([0.0; 2], true),
+        _ => return None,
+    };
+    let (eye, forward) = (camera.eye, camera.forward);
+    let axes = [camera.right / camera.right.length_squared(), camera.up / camera.up.length_squared()];
+    Some(move |&[lower, upper]: &[DVec3; 2]| {
+        let corner = |k: usize| {
+            let pick = |bit: usize, a: f64, b: f64| if k >> bit & 1 == 0 { a } else { b };
+            DVec3::new(pick(0, lower.x, upper.x), pick(1, lower.y, upper.y), pick(2, lower.z, upper.z)) - eye
+        };
+        let all = |outside: &dyn Fn(DVec3) -> bool| (0..8).all(|k| outside(corner(k)));
+        let border = |d: DVec3| if flat { 1.0 } else { d.dot(forward) };
+        all(&|d| d.dot(forward) <= 0.0)
+            || (0..2).any(|k| {
+                all(&|d| d.dot(axes[k]) > (1.0 + margin + shift[k]) * border(d))
+                    || all(&|d| d.dot(axes[k]) < (-1.0 - margin + shift[k]) * border(d))
+            })
+    })
+}
