@@ -31,7 +31,7 @@ pub(super) fn emissive(random: &mut Random) -> Emissive {
         Amount::LuminousIntensity(number) => Amount::Luminance(number),
         other => other,
     };
-    Emissive { amount: amount.into(), color: tint(random), two_sided: random.below(2) == 0, group: light_group(random) }
+    Emissive { amount: amount.into(), color: tint(random).into(), two_sided: random.below(2) == 0, group: light_group(random) }
 }
 
 pub(super) fn sphere_light(random: &mut Random) -> Light {

@@ -86,7 +86,7 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
         };
         let material = Material::Emissive(Box::new(Emissive {
             amount: amount.into(),
-            color: tint,
+            color: tint.into(),
             two_sided,
             group: lamp.group.clone(),
         }));
