@@ -232,11 +232,7 @@ impl<'s> Vertex<'s> {
         if lights.glow.is_some() {
             radiance = radiance.mul(lights::share_at(self.scene, s, One::first(1)));
         }
-        Some(LightMet {
-            radiance: vector(radiance),
-            pdf,
-            weight: met_weight(self.ray.pdf, pdf),
-        })
+        Some(LightMet { radiance: vector(radiance), pdf, weight: met_weight(self.ray.pdf, pdf) })
     }
 
     /// The light sample that is taken here; `None` where there is none to take.

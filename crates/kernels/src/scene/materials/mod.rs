@@ -150,7 +150,13 @@ pub struct Row {
 impl Row {
     /// A lobe with nothing but a colour.
     fn new(lobe: Lobe, color: Albedo) -> Self {
-        Row { lobe, color, parameters: [Albedo::number(0.0); 2], second: Albedo::number(1.0), glow: Albedo::number(1.0) }
+        Row {
+            lobe,
+            color,
+            parameters: [Albedo::number(0.0); 2],
+            second: Albedo::number(1.0),
+            glow: Albedo::number(1.0),
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Surfaces that shine.
 
 use super::MaterialWords;
-use crate::desc::amount::{amount_of, put_amount};
 use crate::codes;
+use crate::desc::amount::{amount_of, put_amount};
 use crate::desc::{Albedo, Amount, Color, LightGroup, Radiometric};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::form::Form;
@@ -79,7 +79,8 @@ impl Emissive {
             Amount::LuminousIntensity(_) => ("luminous_intensity", "luminance"),
             Amount::LuminousPower(_) => ("luminous_power", "luminance"),
         };
-        let message = format!("`{name}` is of the whole lamp, and `color` is a texture: each point shines another part");
+        let message =
+            format!("`{name}` is of the whole lamp, and `color` is a texture: each point shines another part");
         let fault = Diagnostic::error(codes::NO_USE, self.amount.span, message);
         let fault = fault.expected("`radiance` or `luminance`, of points where the texture is white");
         Some(fault.hint(format!("write `{other}` in place of `{name}`, or a `color` that is the same everywhere")))
