@@ -32,6 +32,28 @@ fn view(objects: &str) -> SceneDesc {
     loaded.unwrap_or_else(|error| panic!("{error}\n{text}")).scene
 }
 
+/// Lamps of all kinds with textures, over glass, a mirror and a glossy ball.
+pub(crate) fn lamps() -> SceneDesc {
+    let lamps = format!(
+        "{BALL}, Sphere(center: (0.6, 0.5, 0.8), radius: 0.5, material: Transparent(ior: 1.5)), \
+         Sphere(center: (1.8, 0.4, -0.4), radius: 0.4, material: Mirror(reflectance: 0.9)), \
+         Sphere(center: (-1.8, 0.4, 0.9), radius: 0.4, material: BlinnPhong(albedo: 0.4, exponent: 90, specular: 0.3)), \
+         Rectangle(center: (0.6, 2, 0.3), normal: (0, -1, 0), size: 0.8, material: {}), \
+         Capsule(from: (-1.5, 2, 0.4), to: (-0.6, 2.2, 0.4), radius: 0.2, material: {}), \
+         Sphere(center: (1.6, 1.8, 0), radius: 0.2, material: {}), \
+         Sphere(center: (-0.2, 0.3, 1.5), radius: 0.2, material: Emissive(radiance: 2)), \
+         Mesh(file: {:?}, material: {}, transform: [Scale(0.4), Translate((-0.3, 1.9, -1.3))])",
+        glow(9.0, CHECKERED, true),
+        glow(7.0, "Noise(a: 0, b: (1, 0.7, 0.4), mapping: World(scale: 3))", false),
+        glow(9.0, &image(), false),
+        square(1.0).obj("square-1"),
+        glow(5.0, "Checkerboard(a: 1, b: 0.05, mapping: Triplanar(scale: 3))", true),
+    );
+    let mut desc = view(&lamps);
+    desc.render.max_bounces = 6.into();
+    desc
+}
+
 /// A material that shines by a texture.
 fn glow(radiance: f64, color: &str, two_sided: bool) -> String {
     format!("Emissive(radiance: {radiance}, color: {color}, two_sided: {two_sided})")
