@@ -2,7 +2,8 @@
 
 use super::{NONE, Scene};
 
-/// Where the lights of a scene lie as surfaces, and how much of their light is there on average. Columns, index = light.
+/// Where the lights of a scene lie as surfaces, and how much of their light is there on average. Columns, index =
+/// light.
 #[derive(Clone, Debug)]
 pub struct Glow {
     /// The number of the texture that says how much of its light each point shines, as materials have it; 0: all points

@@ -25,6 +25,17 @@ fn is_of_texture(item: Item<'_, '_>) -> bool {
     item.name().is_some_and(is_texture) || of_map()
 }
 
+/// A texture that stands where an amount of light is due.
+fn texture_as_amount(item: Item<'_, '_>, at: &'static FieldDef) -> Diagnostic {
+    let message = format!("{} cannot be {}", plain(at.noun), describe(item));
+    let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected_for(at, item));
+    fault.hint(match item.syntax() {
+        Syntax::Ron => "the texture of a lamp is the `color` of `Emissive`: radiance: 5, color: Noise()",
+        Syntax::Toml => "the texture of a lamp is the color of Emissive: radiance = 5, color = { Noise = {} }",
+        Syntax::Json => "the texture of a lamp is the \"color\" of Emissive: { \"Noise\": {} }, say",
+    })
+}
+
 impl Reader<'_> {
     /// Three numbers in brackets of either kind, each in the field's range.
     fn three(&mut self, item: Item<'_, '_>, at: &'static FieldDef, names: [&str; 3]) -> Option<Vec3> {
@@ -49,15 +60,7 @@ impl Reader<'_> {
         let is_vector = matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
         if !is_vector {
             if at.name == "radiance" && is_of_texture(item) {
-                let message = format!("{} cannot be {}", plain(at.noun), describe(item));
-                let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected_for(at, item));
-                self.report(fault.hint(match item.syntax() {
-                    Syntax::Ron => "the texture of a lamp is the `color` of `Emissive`: radiance: 5, color: Noise()",
-                    Syntax::Toml => "the texture of a lamp is the color of Emissive: radiance = 5, color = { Noise = {} }",
-                    Syntax::Json => {
-                        "the texture of a lamp is the \"color\" of Emissive: \"radiance\": 5, \"color\": { \"Noise\": {} }"
-                    }
-                }));
+                self.report(texture_as_amount(item, at));
                 return None;
             }
             let edit = elsewhere::vector_elsewhere(item, at, N);

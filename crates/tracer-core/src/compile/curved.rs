@@ -173,8 +173,8 @@ pub(super) fn is_similar(map: &DAffine3) -> bool {
 }
 
 impl Curved {
-    /// Centre and radius of a copy that stays a sphere: nothing has turned it, or it shines evenly, and how it is turned
-    /// does not show.
+    /// Centre and radius of a copy that stays a sphere: nothing has turned it, or it shines evenly, and how it is
+    /// turned does not show.
     fn ball(&self, map: &DAffine3) -> Option<(DVec3, f64)> {
         let m = map.matrix3;
         let upright = m == DMat3::from_diagonal(DVec3::splat(m.x_axis.x)) && m.x_axis.x > 0.0;

@@ -37,7 +37,7 @@ pub(crate) fn lamps() -> SceneDesc {
     let lamps = format!(
         "{BALL}, Sphere(center: (0.6, 0.5, 0.8), radius: 0.5, material: Transparent(ior: 1.5)), \
          Sphere(center: (1.8, 0.4, -0.4), radius: 0.4, material: Mirror(reflectance: 0.9)), \
-         Sphere(center: (-1.8, 0.4, 0.9), radius: 0.4, material: BlinnPhong(albedo: 0.4, exponent: 90, specular: 0.3)), \
+         Sphere(center: (-1.8, 0.4, 0.9), radius: 0.4, material: BlinnPhong(exponent: 90, specular: 0.3)), \
          Rectangle(center: (0.6, 2, 0.3), normal: (0, -1, 0), size: 0.8, material: {}), \
          Capsule(from: (-1.5, 2, 0.4), to: (-0.6, 2.2, 0.4), radius: 0.2, material: {}), \
          Sphere(center: (1.6, 1.8, 0), radius: 0.2, material: {}), \
@@ -155,7 +155,8 @@ fn curved_lamps_as_the_reference_sees_them() {
     same("a ball with a picture", &ball(""));
     same("turned", &ball(", transform: [Rotate(axis: (0.3, 0.2, 1), degrees: 75)]"));
     let ellipsoids = ", transform: [Scale((0.7, 1.3, 0.5)), Rotate(axis: (1, 0.2, 1), degrees: 40)], \
-                      placements: [[Translate((0.3, 0.3, 0.4))], [Scale((0.6, 0.6, -0.6)), Translate((-0.6, 0.8, 0.2))]]";
+                      placements: [[Translate((0.3, 0.3, 0.4))], \
+                      [Scale((0.6, 0.6, -0.6)), Translate((-0.6, 0.8, 0.2))]]";
     same("ellipsoids", &ball(ellipsoids));
     let ring = format!(
         "Disk(center: (1, 0.9, -0.3), normal: (-1, 0.2, 0.4), radius: 0.7, inner_radius: 0.3, material: {})",
