@@ -131,7 +131,7 @@ fn glass(ior: f64, transmittance: [f64; 3]) -> Material {
 fn emissive(radiance: [f64; 3]) -> Material {
     Material::Emissive(Box::new(Emissive {
         amount: Amount::Radiance(radiance).into(),
-        color: [1.0; 3],
+        color: [1.0; 3].into(),
         two_sided: true,
         group: LightGroup::default(),
     }))

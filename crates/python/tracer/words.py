@@ -821,7 +821,7 @@ class Emissive(TypedDict, total=False):
     luminance: Luminance of every point: 683 times the luminance Y of a radiance. Unit: cd/m^2.
     luminous_power: Luminous flux of each copy, as lamps are sold: 683 Y of a power. Unit: lm.
     luminous_intensity: Luminous intensity of each copy: 683 Y of an intensity. Unit: cd.
-    color: The colour of the light. Only what it is beside its own luminance counts: the amount times color / Y(color). `"=blackbody(2700)"` is that of a bulb.
+    color: The colour of the light. Of a constant one only what it is beside its own luminance counts: the amount times color / Y(color). `"=blackbody(2700)"` is that of a bulb. A texture says how much of the amount, which is `radiance` or `luminance` then, each point has: where it is white all of it, where it is black nothing. So `luminance: 300, color: Texture(file: "screen.png")` is a screen whose white has 300 cd/m^2.
     two_sided: Whether it shines to both sides; else only to the normal's: outwards.
     group: The group of lights that what shines so is of: with `output.light_groups`, what each group brings to the picture is told apart.
     """
@@ -832,7 +832,7 @@ class Emissive(TypedDict, total=False):
     luminance: Any
     luminous_power: Any
     luminous_intensity: Any
-    color: Either[float, Sequence[Either[float, str]], Array, str, PickItem]
+    color: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     two_sided: Either[bool, str, PickItem]
     group: Any
 

@@ -47,8 +47,7 @@ fn first_hit(scene: &Scene, world: &World, [x, y]: [u32; 2]) -> Option<FirstHit>
         (Some(_), _) | (_, None) => DVec3::ZERO,
         (None, Some(material)) => texture::albedo(scene, material.traits().color, &s),
     };
-    let shines = light.filter(|light| light.two_sided() || s.outside);
-    let emission = shines.map_or(DVec3::ZERO, |light| DVec3::from(light.radiance()) * scene.radiance_unit);
+    let emission = light.map_or(DVec3::ZERO, |light| texture::shine(scene, light, &s));
     Some(FirstHit {
         point: s.p,
         normal: s.ns,

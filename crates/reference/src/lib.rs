@@ -164,10 +164,8 @@ impl Tracer<'_> {
             return self.background(ray.direction, scatterings) * self.scene.radiance_unit;
         };
         if let Some(light) = self.world.light_of(&hit) {
-            let light = &self.scene.lights[light];
-            let shines = light.two_sided() || self.world.surface(&ray, &hit, self.smoothing).outside;
-            let radiance = if shines { light.radiance() } else { [0.0; 3] };
-            return DVec3::from(radiance) * self.scene.radiance_unit;
+            let s = self.world.surface(&ray, &hit, self.smoothing);
+            return texture::shine(self.scene, &self.scene.lights[light], &s);
         }
         if scatterings > self.scene.max_bounces {
             return DVec3::ZERO;

@@ -5,7 +5,7 @@ use crate::surface::Surface;
 use crate::vertex_color::srgb;
 use glam::DVec3;
 use tracer_core::Scene;
-use tracer_core::scene::{Albedo, Texel, TextureView};
+use tracer_core::scene::{Albedo, Light, Material, Texel, TextureView};
 use tracer_core::scene::{TextureFilter, TextureWrap};
 
 /// The albedo at a surface.
@@ -17,6 +17,19 @@ pub fn albedo(scene: &Scene, albedo: Albedo, s: &Surface) -> DVec3 {
         Albedo::Program(index) => return pattern::program(scene, index, s, |k, uv| texel_at(scene, k, uv)),
     };
     texel_at(scene, index, s.uv)
+}
+
+/// What a lamp shines from a surface of it to the viewer, in W/(sr m^2): its radiance times what its material's texture
+/// is there, from 0 to 1.
+pub fn shine(scene: &Scene, light: &Light, s: &Surface) -> DVec3 {
+    if !light.two_sided() && !s.outside {
+        return DVec3::ZERO;
+    }
+    let share = match scene.materials.get(s.material as usize) {
+        Some(Material::Emissive(words)) => albedo(scene, words.glow, s).clamp(DVec3::ZERO, DVec3::ONE),
+        _ => DVec3::ONE,
+    };
+    DVec3::from(light.radiance()) * share * scene.radiance_unit
 }
 
 /// The number at a surface: of a texture the luminance.

@@ -260,6 +260,8 @@ pub(crate) struct Rule {
     pub file: Option<FileKind>,
     /// A texture's own colour: its range is that of what the texture is of.
     pub of_texture: bool,
+    /// Textures that are written here say what share of it is there: their colours go from 0 to 1 all the same.
+    pub shared_out: bool,
 }
 
 /// Coordinates and lengths beyond this are refused: products of them would leave the range of 32-bit floats.
@@ -278,6 +280,7 @@ impl Rule {
         color: false,
         file: None,
         of_texture: false,
+        shared_out: false,
     };
 
     /// The name of a file.
@@ -324,6 +327,11 @@ impl Rule {
     /// Light, per channel.
     pub const fn light(unit: &'static str) -> Rule {
         Rule { color: true, unit, ..Rule::within("a colour", 0.0, MAX_LIGHT) }
+    }
+
+    /// What light is of, constant; or, by a texture, which share of it is where.
+    pub const fn tint() -> Rule {
+        Rule { shared_out: true, ..Rule::light("") }
     }
 
     /// Light as people see it.

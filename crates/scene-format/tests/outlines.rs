@@ -206,3 +206,39 @@ fn only_some_shapes_shine_by_an_intensity() {
         assert_eq!(told(object), ["E0212"], "{object}");
     }
 }
+
+/// A texture says how much each point shines; what is said of the whole lamp has no use for one, by whatever name.
+#[test]
+fn textures_are_of_what_points_shine() {
+    let told = |material: &str| {
+        let text = format!(
+            "Scene(textures: {{ \"clouds\": Noise(), \"warm\": (1, 0.6, 0.2) }}, \
+             objects: [Sphere(center: (0, 0, 0), radius: 1, material: Emissive({material}))])"
+        );
+        let errors = common::diagnostics(&text, scene_format::Syntax::Ron).into_iter();
+        let errors = errors.filter(|fault| fault.severity == scene_format::Severity::Error);
+        errors.map(|fault| (fault.code.as_str().to_owned(), fault.hint)).collect::<Vec<_>>()
+    };
+    for right in [
+        "radiance: 3, color: \"clouds\"",
+        "luminance: 300, color: Checkerboard()",
+        "radiance: 3, color: (5, 3, 2)",
+        "power: 3, color: \"warm\"",
+        "luminous_power: 800, color: \"=blackbody(2700)\"",
+    ] {
+        assert_eq!(told(right), [], "{right}");
+    }
+    for (wrong, code, hint) in [
+        ("power: 3, color: \"clouds\"", "E0212", "write `radiance` in place of `power`"),
+        ("luminous_power: 3, color: Noise()", "E0212", "write `luminance` in place of `luminous_power`"),
+        ("intensity: 3, color: Noise()", "E0212", "write `radiance` in place of `intensity`"),
+        ("luminous_intensity: 3, color: Noise()", "E0212", "write `luminance` in place of `luminous_intensity`"),
+        ("radiance: 3, color: Noise(b: 4)", "E0303", "channels go from 0 to 1"),
+        ("radiance: Noise()", "E0203", "the texture of a lamp is the `color` of `Emissive`"),
+        ("radiance: 3, texture: Noise()", "E0201", "a texture stands in `color`"),
+    ] {
+        let faults = told(wrong);
+        let [(found, told)] = &faults[..] else { panic!("{wrong}: {faults:?}") };
+        assert!(found == code && told.contains(hint), "{wrong}: {found} {told}");
+    }
+}

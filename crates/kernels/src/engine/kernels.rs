@@ -31,7 +31,7 @@ pub struct Kernels {
     aim: unsafe fn(&Guide, u32, u32, &mut Batch),
     share_segments: unsafe fn(&Scene, &Obstacles, usize, &mut Batch) -> usize,
     share_gather: unsafe fn(&mut Batch),
-    photons_emit: unsafe fn(&Plan, PhotonPass<'_>, &mut Batch),
+    photons_emit: unsafe fn(&Scene, &Plan, PhotonPass<'_>, &mut Batch),
     photons_scatter: unsafe fn(&Scene, &Plan, u32, u32, &mut Batch),
     light_paths: unsafe fn(&Scene, LightPass<'_>, u32, &mut Batch),
 }
@@ -86,8 +86,8 @@ macro_rules! kernels {
                 share::share_gather::<$lanes>(batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn photons_emit_entry(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
-                photons::photons_emit::<$lanes>(plan, pass, batch)
+            fn photons_emit_entry(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
+                photons::photons_emit::<$lanes>(scene, plan, pass, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn photons_scatter_entry(scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {
@@ -204,9 +204,9 @@ impl Kernels {
         unsafe { (self.share_gather)(batch) }
     }
     /// First rays of photons.
-    pub fn photons_emit(&self, plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
+    pub fn photons_emit(&self, scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
-        unsafe { (self.photons_emit)(plan, pass, batch) }
+        unsafe { (self.photons_emit)(scene, plan, pass, batch) }
     }
     /// What becomes of photons where they hit, after `event` mirrors and glass.
     pub fn photons_scatter(&self, scene: &Scene, plan: &Plan, seed: u32, event: u32, batch: &mut Batch) {

@@ -2,6 +2,7 @@
 //! `tracer-core`.
 
 pub mod batch;
+pub mod glow;
 pub mod guide;
 // The unit tests do without them: they take most of the crate's time to compile.
 #[cfg(not(test))]

@@ -228,11 +228,11 @@ impl<'s> Vertex<'s> {
         let met = LightHit { direction, distance, cos, front: s.outside, lanes: One::first(1) };
         let at = Receiver { p: V3::splat(self.ray.origin), n: V3::splat(self.ray.normal) };
         let pdf = number(lights::pdf(lights, light, at, &met));
-        Some(LightMet {
-            radiance: vector(lights::radiance(lights, light, &met)),
-            pdf,
-            weight: met_weight(self.ray.pdf, pdf),
-        })
+        let mut radiance = lights::radiance(lights, light, &met);
+        if lights.glow.is_some() {
+            radiance = radiance.mul(lights::share_at(self.scene, s, One::first(1)));
+        }
+        Some(LightMet { radiance: vector(radiance), pdf, weight: met_weight(self.ray.pdf, pdf) })
     }
 
     /// The light sample that is taken here; `None` where there is none to take.
@@ -247,6 +247,12 @@ impl<'s> Vertex<'s> {
         let choice = lights::choose(lights, Receiver { p: s.start, n: s.ns }, c(u), c(v));
         let [u, v] = draw.points(Purpose::Light(draw.vertex));
         let l = lights::sample(lights, &choice, s.start, c(u), c(v), One::first(1));
+        let mut radiance = l.radiance;
+        if lights.glow.is_some() {
+            let on_lamp = One::first(1) & !choice.environment;
+            let ray = (s.start, l.wi);
+            radiance = radiance.mul(lights::share_towards(self.scene, choice.light, ray, l.distance, on_lamp));
+        }
         let cos = s.ns.dot(l.wi);
         let wo = V3::<One>::splat(self.ray.direction).neg();
         let (f, pdf) = self.bsdf.evaluate(s.ns, wo, l.wi, cos);
@@ -257,7 +263,7 @@ impl<'s> Vertex<'s> {
             pdf: if inverse > 0.0 { 1.0 / inverse } else { 0.0 },
             direction: vector(l.wi),
             distance: number(l.distance),
-            radiance: vector(l.radiance),
+            radiance: vector(radiance),
             cos: number(cos),
             f: if comes { vector(f) } else { [0.0; 3] },
             material_pdf: if comes { number(pdf) } else { 0.0 },

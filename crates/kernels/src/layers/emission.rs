@@ -1,7 +1,7 @@
 //! Radiance that the surface itself sends to the viewer, in W/(sr m^2): lamps. The background is no surface.
 
 use super::{FirstHit, PictureLayer, Pixel, Units};
-use crate::engine::lights::{LightHit, radiance};
+use crate::engine::lights::{LightHit, radiance, share_at};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::scene::Scene;
 
@@ -22,7 +22,11 @@ impl PictureLayer for Emission {
         let light = F::U::select(lamp, s.light - F::U::splat(1), F::U::splat(0));
         let cos = hit.direction.dot(s.ng).abs();
         let met = LightHit { direction: hit.direction, distance: hit.t, cos, front: s.outside, lanes: lamp };
-        let shines = radiance(&hit.scene.tables.lights, light, &met);
+        let lights = &hit.scene.tables.lights;
+        let mut shines = radiance(lights, light, &met);
+        if lights.glow.is_some() {
+            shines = shines.mul(share_at(hit.scene, s, lamp));
+        }
         [F::select(lamp, shines.0, zero), F::select(lamp, shines.1, zero), F::select(lamp, shines.2, zero)]
     }
 

@@ -1,7 +1,7 @@
 //! Lights, and the tree by which one of them is chosen.
 
 use super::table::Table;
-use super::{Environment, Sphere};
+use super::{Environment, Glow, Sphere};
 use crate::shapes::{Lamp, UnitShape};
 use glam::{DAffine3, DVec3};
 use std::sync::Arc;
@@ -70,7 +70,7 @@ impl FlatLight {
 }
 
 impl Light {
-    /// Radiance per channel, in `Scene::radiance_unit`.
+    /// Radiance per channel, in `Scene::radiance_unit`: of one with a texture where that is white.
     pub fn radiance(&self) -> [f64; 3] {
         match self {
             Light::Sphere { radiance, .. } => *radiance,
@@ -195,6 +195,8 @@ pub struct LightTable {
     pub depth: u32,
     /// Light from all directions.
     pub environment: Option<Arc<Environment>>,
+    /// What is known of lamps whose points shine unlike each other, where there are any.
+    pub glow: Option<Arc<Glow>>,
 }
 
 /// A light as the tree sees it.
@@ -209,9 +211,10 @@ struct Emitter {
 }
 
 impl Emitter {
-    fn new(light: &Light, spheres: &[Sphere]) -> Self {
+    /// `share`: how much of its radiance the light has, on average.
+    fn new(light: &Light, spheres: &[Sphere], share: f64) -> Self {
         let (center, radius) = light.bounds(spheres);
-        let radiance = light.radiance().iter().sum::<f64>();
+        let radiance = light.radiance().iter().sum::<f64>() * share;
         let power = match light {
             Light::Sphere { .. } => radius * radius * radiance,
             // What a closed one shows is a quarter of its surface, on average.
@@ -249,9 +252,21 @@ impl LightTable {
     /// Marks a node that is a light.
     pub const LEAF: u32 = 1 << 31;
 
-    /// Of lights among which the spheres come first, then the curved ones.
+    /// Of lights among which the spheres come first, then the curved ones. All shine evenly.
     pub fn new(lights: &[Light], spheres: &[Sphere], environment: Option<Arc<Environment>>) -> Self {
-        let emitters: Vec<Emitter> = lights.iter().map(|light| Emitter::new(light, spheres)).collect();
+        Self::with_glow(lights, spheres, environment, None)
+    }
+
+    /// The same, of lights some of which may shine unevenly.
+    pub fn with_glow(
+        lights: &[Light],
+        spheres: &[Sphere],
+        environment: Option<Arc<Environment>>,
+        glow: Option<Arc<Glow>>,
+    ) -> Self {
+        let share = |k: usize| glow.as_ref().map_or(1.0, |glow| f64::from(glow.share[k]));
+        let emitter = |(k, light): (usize, &Light)| Emitter::new(light, spheres, share(k));
+        let emitters: Vec<Emitter> = lights.iter().enumerate().map(emitter).collect();
         let rows = lights.iter().filter_map(|light| {
             let Light::Sphere { sphere, radiance, two_sided } = *light else { return None };
             let s = spheres.get(sphere as usize)?;
@@ -296,7 +311,13 @@ impl LightTable {
             trail: pad(builder.trail),
             tree: builder.tree,
             environment,
+            glow,
         }
+    }
+
+    /// How much of its radiance light `k` has, on average.
+    pub fn share(&self, k: usize) -> f64 {
+        self.glow.as_ref().and_then(|glow| glow.share.get(k)).map_or(1.0, |&share| f64::from(share))
     }
 
     /// Whether there is none to ask.

@@ -10,6 +10,7 @@ mod camera;
 mod colors;
 mod environment;
 mod frame;
+mod glow;
 mod light;
 pub mod materials;
 mod mesh;
@@ -28,6 +29,7 @@ pub use camera::{Camera, Filter, FisheyeMapping, Lens, Projection, Stereo};
 pub use colors::{Coded, ColorTable, MeshColors, VertexSpace};
 pub use environment::Environment;
 pub use frame::Frame;
+pub use glow::Glow;
 pub use light::LightTable;
 pub use light::{CurvedLight, CurvedRow, FlatLight, Light};
 pub use materials::{Albedo, Material};
@@ -173,7 +175,8 @@ impl Scene {
             light.darken();
         }
         let environment = self.tables.lights.environment.clone().filter(|_| background);
-        lit.tables.lights = LightTable::new(&lit.lights, &lit.spheres, environment);
+        let glow = self.tables.lights.glow.clone();
+        lit.tables.lights = LightTable::with_glow(&lit.lights, &lit.spheres, environment, glow);
         if !background {
             lit.background = [0.0; 3];
         }

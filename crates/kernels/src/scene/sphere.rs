@@ -105,7 +105,7 @@ impl SphereTable {
         let large = every_ray().filter(|(_, (s, _))| s.radius >= LARGE).map(|(id, (s, _))| LargeSphere::new(id, s));
         let small = every_ray().filter(|(_, (s, _))| s.radius < LARGE).map(|(id, (_, a))| SmallSphere::new(id, a));
         let rows = spheres.iter().zip(&anchored).map(|(s, &Anchored { p, n, k })| {
-            let material = if s.light == super::NONE { s.material } else { emitter_material };
+            let material = if s.material == super::NONE { emitter_material } else { s.material };
             let light = s.light.wrapping_add(1);
             [p[0], p[1], p[2], n[0], n[1], n[2], k, f32::from_bits(material), f32::from_bits(light)]
         });

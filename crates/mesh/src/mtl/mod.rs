@@ -221,7 +221,7 @@ fn turn(mtl: &MtlMaterial, files: &Files, notes: &mut Notes) -> Material {
         }
         return Material::Emissive(Box::new(Emissive {
             amount: Amount::Radiance(emission).into(),
-            color: [1.0; 3],
+            color: [1.0; 3].into(),
             two_sided: true,
             group: LightGroup::default(),
         }));

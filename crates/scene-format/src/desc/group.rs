@@ -240,7 +240,7 @@ pub(crate) fn of_light(light: Spanned<Light>) -> Spanned<Object> {
     };
     let emissive = Emissive {
         amount: Spanned { value: amount, span: light.amount.span },
-        color: light.color,
+        color: light.color.into(),
         two_sided: true,
         group: light.group,
     };

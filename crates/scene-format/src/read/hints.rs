@@ -361,6 +361,12 @@ pub(super) fn strength(name: &str, def: &'static StructDef) -> Option<&'static s
         "colour" | "rgb" | "tint" => {
             Some("a light's colour is `color`, or in its amount, per channel: `radiance: (3, 2, 1)`")
         }
+        "texture" | "map" | "image" | "picture" | "pattern" | "emission_map" | "emissive_map" | "map_ke"
+        | "filename"
+            if def.name == "Emissive" =>
+        {
+            Some("a texture stands in `color`: radiance: 5, color: Texture(file: \"screen.png\")")
+        }
         "temperature" | "kelvin" | "blackbody" | "color_temperature" | "t" => {
             Some("a light as white as a black body of 2700 K has `color: \"=blackbody(2700)\"`")
         }

@@ -1,13 +1,14 @@
 //! Vectors, colours and factors: three numbers, or what stands for three.
 
 use super::value::expected_for;
-use super::{Reader, elsewhere, plain};
+use super::{Reader, describe, elsewhere, plain};
 use crate::codes;
-use crate::desc::Vec3;
+use crate::desc::{Vec3, is_texture};
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::expression::Value;
 use crate::form::Form;
 use crate::schema::{FieldDef, Type};
+use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
 use crate::words::Words;
 
@@ -17,6 +18,23 @@ const MANY: usize = 1000;
 const AXES: [&str; 3] = ["the x coordinate", "the y coordinate", "the z coordinate"];
 /// Names of the three numbers of a colour.
 const CHANNELS: [&str; 3] = ["the red channel", "the green channel", "the blue channel"];
+
+/// Whether a texture is written here.
+fn is_of_texture(item: Item<'_, '_>) -> bool {
+    let of_map = || item.kind() == Kind::Map && item.fields().next().is_some_and(|(key, _)| is_texture(&key.text()));
+    item.name().is_some_and(is_texture) || of_map()
+}
+
+/// A texture that stands where an amount of light is due.
+fn texture_as_amount(item: Item<'_, '_>, at: &'static FieldDef) -> Diagnostic {
+    let message = format!("{} cannot be {}", plain(at.noun), describe(item));
+    let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected_for(at, item));
+    fault.hint(match item.syntax() {
+        Syntax::Ron => "the texture of a lamp is the `color` of `Emissive`: radiance: 5, color: Noise()",
+        Syntax::Toml => "the texture of a lamp is the color of Emissive: radiance = 5, color = { Noise = {} }",
+        Syntax::Json => "the texture of a lamp is the \"color\" of Emissive: { \"Noise\": {} }, say",
+    })
+}
 
 impl Reader<'_> {
     /// Three numbers in brackets of either kind, each in the field's range.
@@ -41,6 +59,10 @@ impl Reader<'_> {
         }
         let is_vector = matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
         if !is_vector {
+            if at.name == "radiance" && is_of_texture(item) {
+                self.report(texture_as_amount(item, at));
+                return None;
+            }
             let edit = elsewhere::vector_elsewhere(item, at, N);
             return self.wrong_kind(item, at.noun, &expected_for(at, item), edit);
         }

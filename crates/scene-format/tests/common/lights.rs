@@ -2,6 +2,7 @@
 
 use super::Random;
 use super::generated::{length, name, share, text, vector};
+use super::textures::albedo;
 use scene_format::desc::*;
 
 fn amount(random: &mut Random, color: Color) -> Amount {
@@ -31,7 +32,10 @@ pub(super) fn emissive(random: &mut Random) -> Emissive {
         Amount::LuminousIntensity(number) => Amount::Luminance(number),
         other => other,
     };
-    Emissive { amount: amount.into(), color: tint(random), two_sided: random.below(2) == 0, group: light_group(random) }
+    // A texture is of points.
+    let of_points = matches!(amount, Amount::Radiance(_) | Amount::Luminance(_));
+    let color = if of_points && random.below(3) == 0 { albedo(random) } else { tint(random).into() };
+    Emissive { amount: amount.into(), color, two_sided: random.below(2) == 0, group: light_group(random) }
 }
 
 pub(super) fn sphere_light(random: &mut Random) -> Light {

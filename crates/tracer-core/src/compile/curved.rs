@@ -173,12 +173,13 @@ pub(super) fn is_similar(map: &DAffine3) -> bool {
 }
 
 impl Curved {
-    /// Centre and radius of a copy that stays a sphere: nothing has turned it, or it shines, and how it is turned does
-    /// not show.
+    /// Centre and radius of a copy that stays a sphere: nothing has turned it, or it shines evenly, and how it is
+    /// turned does not show.
     fn ball(&self, map: &DAffine3) -> Option<(DVec3, f64)> {
         let m = map.matrix3;
         let upright = m == DMat3::from_diagonal(DVec3::splat(m.x_axis.x)) && m.x_axis.x > 0.0;
-        let ball = self.unit == UnitShape::Sphere && (upright || self.emissive.is_some() && is_similar(map));
+        let is_even = self.emissive.as_ref().is_some_and(|emissive| emissive.texture().is_none());
+        let ball = self.unit == UnitShape::Sphere && (upright || is_even && is_similar(map));
         ball.then(|| (map.translation, if upright { m.x_axis.x } else { m.x_axis.length() }))
     }
 

@@ -192,6 +192,7 @@ impl<'a> MaterialBuilder<'a> {
             names.push(name());
         }
         if let Some(emissive) = material.shines() {
+            self.faults.extend(emissive.fault());
             self.emissive.insert(self.materials.len() as u32, emissive.clone());
         }
         let compiled = self.compiled(material, base);
@@ -219,7 +220,10 @@ impl<'a> MaterialBuilder<'a> {
                 energy_conserving: words.energy_conserving,
             }),
             desc::Material::Conductor(words) => Material::Conductor(self.conductor(words, base)),
-            desc::Material::Emissive(_) => Material::Emissive(materials::Emissive),
+            desc::Material::Emissive(words) => {
+                let glow = words.texture().map(|texture| self.color(texture, base));
+                Material::Emissive(glow.map_or(materials::Emissive::EVEN, |glow| materials::Emissive { glow }))
+            }
         }
     }
 

@@ -285,7 +285,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     let tree = start.elapsed().as_secs_f64();
     let pictures =
         images.iter().map(|image| Picture { width: image.width, height: image.height, texels: &image.texels });
-    let rendered = tracer_kernels::scene::Scene {
+    let mut rendered = tracer_kernels::scene::Scene {
         frame,
         camera,
         size: [desc.image.width.value, desc.image.height.value],
@@ -332,6 +332,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
         occluders: hierarchy.filter(|_| full).and_then(|accel| OccluderTable::new(accel, OCCLUDERS)).map(Arc::new),
         acceleration: way,
     };
+    tracer_kernels::engine::glow::measure(&mut rendered);
     diagnostics.extend(out_of_view::warning(desc, &rendered));
     let light_groups = desc.output.light_groups.then(|| light_groups::of(desc, &rendered));
     Ok(Scene {

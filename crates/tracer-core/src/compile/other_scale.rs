@@ -1,7 +1,7 @@
 //! Numbers that are surely meant on another scale: radians where degrees stand, light as a colour in bytes, an
 //! exposure in other units.
 
-use scene_format::desc::{Amount, Color, Light, Material, MaterialRef, Projection, Transform};
+use scene_format::desc::{Albedo, Amount, Color, Light, Material, MaterialRef, Projection, Transform};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::f64::consts::PI;
@@ -89,7 +89,13 @@ fn lights(desc: &SceneDesc) -> impl Iterator<Item = (&Spanned<Amount>, Color)> {
         (&light.amount, light.color)
     }
     fn of_material(material: &Material) -> Option<(&Spanned<Amount>, Color)> {
-        material.shines().map(|shines| (&shines.amount, shines.color))
+        material.shines().map(|shines| {
+            let color = match shines.color.resolved() {
+                Albedo::Color(color) => color.value,
+                _ => [1.0; 3],
+            };
+            (&shines.amount, color)
+        })
     }
     let inline = desc.objects.iter().filter_map(|object| match object.value.material() {
         MaterialRef::Inline(material) => of_material(&material.value),

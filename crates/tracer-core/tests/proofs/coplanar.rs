@@ -148,7 +148,7 @@ fn the_first_is_seen_wherever_it_is() {
 fn a_lamp_let_into_the_ceiling_shines() {
     let emissive = Material::Emissive(Box::new(Emissive {
         amount: Amount::Radiance([3.0; 3]).into(),
-        color: [1.0; 3],
+        color: [1.0; 3].into(),
         two_sided: false,
         group: LightGroup::default(),
     }));

@@ -158,7 +158,7 @@ fn placed_spheres_are_spheres() {
     let power = Amount::Power([50.0; 3]).into();
     let lamp = Material::Emissive(Box::new(Emissive {
         amount: power,
-        color: [1.0; 3],
+        color: [1.0; 3].into(),
         two_sided: false,
         group: LightGroup::default(),
     }));
@@ -189,7 +189,7 @@ fn faults_of_curved_shapes() {
     let lamp = || {
         Material::Emissive(Box::new(Emissive {
             amount: Amount::Radiance([1.0; 3]).into(),
-            color: [1.0; 3],
+            color: [1.0; 3].into(),
             two_sided: false,
             group: LightGroup::default(),
         }))

@@ -41,6 +41,7 @@ fn scenes() -> Vec<(&'static str, SceneDesc)> {
         ("direct light", direct),
         ("one bounce", room().bounces(0)),
         ("hidden", crate::hidden::hidden()),
+        ("lamps with textures", crate::glow::lamps()),
     ]
 }
 
@@ -95,7 +96,7 @@ fn what_is_told_sums_to_the_sample() {
             }
         }
         assert!(lit > 20, "{name}: {lit}");
-        assert!(deep > 5 || ["direct light", "one bounce"].contains(&name), "{name}: {deep}");
+        assert!(deep > 5 || ["direct light", "one bounce", "lamps with textures"].contains(&name), "{name}: {deep}");
     }
 }
 
@@ -103,7 +104,12 @@ fn what_is_told_sums_to_the_sample() {
 #[test]
 fn what_techniques_bring_sums_to_the_sample() {
     let mut seen = std::collections::BTreeSet::new();
-    for (name, desc) in [("a room", room()), ("many balls", many_balls()), ("everything", everything())] {
+    for (name, desc) in [
+        ("a room", room()),
+        ("many balls", many_balls()),
+        ("everything", everything()),
+        ("lamps with textures", crate::glow::lamps()),
+    ] {
         let scene = compiled(&desc);
         for (k, sample) in [0, 9].into_iter().enumerate() {
             for (x, y) in (0..8).map(|k| (2 + 3 * k, 1 + (7 * k) % 21)).skip(k) {

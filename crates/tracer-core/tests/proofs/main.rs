@@ -20,6 +20,7 @@ mod direct;
 mod environment;
 mod figures;
 mod glints;
+mod glow;
 mod hidden;
 mod inspect;
 mod integrators;

@@ -353,7 +353,7 @@ fn what_lies_in_it_does_not_speckle() {
 fn a_lamp_let_into_it_shines() {
     let emissive = Material::Emissive(Box::new(Emissive {
         amount: Amount::Radiance([3.0; 3]).into(),
-        color: [1.0; 3],
+        color: [1.0; 3].into(),
         two_sided: false,
         group: LightGroup::default(),
     }));
@@ -412,7 +412,7 @@ fn faults_of_planes() {
     };
     let lamp = Material::Emissive(Box::new(Emissive {
         amount: Amount::Radiance([1.0; 3]).into(),
-        color: [1.0; 3],
+        color: [1.0; 3].into(),
         two_sided: false,
         group: LightGroup::default(),
     }));

@@ -152,9 +152,10 @@ fn stereo() -> SceneDesc {
     desc
 }
 
-fn scenes() -> [(&'static str, SceneDesc); 5] {
+fn scenes() -> [(&'static str, SceneDesc); 6] {
     let [hidden, stereo] = [("hidden", crate::hidden::hidden()), ("stereo", stereo())];
-    [("everything", everything()), ("many balls", many_balls()), ("planes", planes()), hidden, stereo]
+    let lamps = ("lamps with textures", crate::glow::lamps());
+    [("everything", everything()), ("many balls", many_balls()), ("planes", planes()), hidden, stereo, lamps]
 }
 
 const SAMPLES: u32 = 21;

@@ -17,7 +17,7 @@ const GUIDED: usize = 5;
 pub fn shining(radiance: [f64; 3], two_sided: bool) -> Material {
     Material::Emissive(Box::new(Emissive {
         amount: Amount::Radiance(radiance).into(),
-        color: [1.0; 3],
+        color: [1.0; 3].into(),
         two_sided,
         group: LightGroup::default(),
     }))
@@ -26,7 +26,7 @@ pub fn shining(radiance: [f64; 3], two_sided: bool) -> Material {
 pub fn powered(power: [f64; 3], two_sided: bool) -> Material {
     Material::Emissive(Box::new(Emissive {
         amount: Amount::Power(power).into(),
-        color: [1.0; 3],
+        color: [1.0; 3].into(),
         two_sided,
         group: LightGroup::default(),
     }))

@@ -2,9 +2,11 @@
 
 use super::draw::{magnitude, once_in};
 use super::meshes::{Point, Shape};
+use super::textures::textured;
 use super::world::{World, inline};
 use scene_format::desc::{
-    Amount, Emissive, Light, Material, Name, Number, Object, PerAxis, Placements, RectBox, Rectangle, Transform,
+    Albedo, Amount, Color, Emissive, Light, Material, Name, Number, Object, PerAxis, Placements, RectBox, Rectangle,
+    Transform,
 };
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
@@ -59,6 +61,12 @@ pub fn cuboid(world: &mut World, center: Point, radius: f64, material: Material,
     world.desc.objects.push(Object::Box(Box::new(cuboid)).into());
 }
 
+/// The colour of an amount: this one, or a texture where the amount is of points.
+fn color_of(world: &mut World, amount: &Amount, tint: Color, random: &mut Random) -> Albedo {
+    let of_points = matches!(amount, Amount::Radiance(_) | Amount::Luminance(_));
+    if of_points && once_in(random, 3) { textured(world, random) } else { tint.into() }
+}
+
 /// Makes objects that shine of some of the lamps, within the spheres that those were and about as strong.
 pub fn other_lamps(world: &mut World, random: &mut Random) {
     for light in std::mem::take(&mut world.desc.lights) {
@@ -85,8 +93,8 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
             _ => (Amount::Radiance(color.map(|c| c * strength)), [1.0; 3]),
         };
         let material = Material::Emissive(Box::new(Emissive {
+            color: color_of(world, &amount, tint, random),
             amount: amount.into(),
-            color: tint,
             two_sided,
             group: lamp.group.clone(),
         }));

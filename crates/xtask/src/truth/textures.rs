@@ -185,6 +185,11 @@ pub fn albedo(world: &mut World, random: &mut Random) -> Albedo {
     }
 }
 
+/// A texture.
+pub fn textured(world: &mut World, random: &mut Random) -> Albedo {
+    if once_in(random, 2) { texture(world, random) } else { pattern(world, random, 2) }
+}
+
 /// A number between these, seldom by place.
 pub fn number(world: &mut World, low: f64, high: f64, random: &mut Random) -> Number {
     let between =
@@ -205,6 +210,7 @@ fn color_of(material: &mut Material) -> Option<&mut Albedo> {
         Material::BlinnPhong(words) => Some(&mut words.albedo),
         Material::Mirror(words) => Some(&mut words.reflectance),
         Material::Transparent(words) => Some(&mut words.transmittance),
+        Material::Emissive(words) => Some(&mut words.color),
         Material::Conductor(words) => match &mut words.reflectance {
             Reflectance::Tinted { reflectance, .. } => Some(reflectance),
             Reflectance::Metal(_) | Reflectance::Complex { .. } => None,

@@ -23,6 +23,8 @@ pub mod aim {
 /// Pairs as look-up tables.
 #[derive(Default)]
 pub struct PairTable {
+    /// The light.
+    pub light: Vec<u32>,
     /// Middle of the light, of flat ones a corner.
     pub light_center: [Vec<f32>; 3],
     /// Its radius; read of spheres only.
@@ -101,7 +103,7 @@ impl Plan {
         let mut all = 0.0;
         for (k, light) in scene.lights.iter().enumerate() {
             let pi = std::f64::consts::PI;
-            let radiance = light.radiance().iter().sum::<f64>();
+            let radiance = light.radiance().iter().sum::<f64>() * scene.tables.lights.share(k);
             // Area over 4 pi.
             let power = match light {
                 Light::Sphere { .. } => {
@@ -279,6 +281,7 @@ impl PairTable {
             Light::Parallelogram(flat) => (offset, flags) = LightTable::offset_and_flags(flat, 0),
             Light::Triangle(flat) => (offset, flags) = LightTable::offset_and_flags(flat, LightTable::TRIANGLE),
         }
+        self.light.push(number as u32);
         self.light_radius.push(radius as f32);
         self.light_primitive.push(primitive);
         self.offset.push(offset);

@@ -1,6 +1,6 @@
 //! Photons: from the lights, over mirrors, glass and narrow lobes, to rough surfaces (see `engine::guide`).
 
-use super::lights::curved;
+use super::lights::{curved, share_towards};
 use super::materials::{Bsdf, reflect_bent};
 use super::shade::leaves;
 use super::surface::surface;
@@ -42,7 +42,7 @@ impl<F: Lanes> Numbers<F> {
 /// light paths radiance, and `pdf` their density per area and solid angle over the cosine.
 // Long: one way of starting for each kind of light, which share their numbers.
 #[inline(always)]
-pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
+pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
     let c = F::splat;
     let (zero, one, two) = (c(0.0), c(1.0), c(2.0));
     let pairs = &plan.pairs;
@@ -109,12 +109,18 @@ pub fn photons_emit<F: Lanes>(plan: &Plan, pass: PhotonPass<'_>, batch: &mut Bat
         }
         let sent = valid & zero.lt(density) & density.lt(two * c(super::materials::TWO_PI));
         density = density * rarity;
-        let flux = V3::<F>::gather_columns(&pairs.flux, pair).scale(density);
+        let mut flux = V3::<F>::gather_columns(&pairs.flux, pair).scale(density);
+        let mut radiance = V3::<F>::gather_columns(&pairs.radiance, pair);
+        if scene.tables.lights.glow.is_some() {
+            let light = F::U::gather(&pairs.light, pair);
+            let share = share_towards(scene, light, (point, normal.neg()), zero, sent);
+            (flux, radiance) = (flux.mul(share), radiance.mul(share));
+        }
         let k = paths.len;
         point.compress(sent, &mut paths.origin, k);
         direction.compress(sent, &mut paths.direction, k);
         if let Some(light_paths) = pass.light_paths {
-            V3::<F>::gather_columns(&pairs.radiance, pair).compress(sent, &mut paths.throughput, k);
+            radiance.compress(sent, &mut paths.throughput, k);
             (F::gather(&light_paths.density, pair) / density).compress(sent, &mut paths.pdf[k..]);
             one.compress(sent, &mut paths.eta2[k..]);
         } else {

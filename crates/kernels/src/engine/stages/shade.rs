@@ -120,7 +120,10 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                     weight = F::select(found, one / (one + by_light), weight);
                 }
             }
-            let shines = lights::radiance(&tables.lights, light, &met).mul(throughput).scale(shown * weight);
+            let mut shines = lights::radiance(&tables.lights, light, &met).mul(throughput).scale(shown * weight);
+            if tables.lights.glow.is_some() {
+                shines = shines.mul(lights::share_at(scene, &s, emits));
+            }
             seen = V3::select(emits, shines, seen);
         }
         add_to_slots(&mut batch.radiance, slot & F::U::splat(path::SUM), seen, emits | left);
@@ -209,7 +212,12 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             if lit.any() {
                 let (f, pdf) = bsdf.evaluate(s.ns, wo, l.wi, cos_i);
                 let weight = F::select(goes_on, weight_of_ratio(pdf * l.inverse_pdf), one);
-                let value = f.mul(throughput).mul(l.radiance).scale(cos_i * l.inverse_pdf * (weight * eta2));
+                let mut value = f.mul(throughput).mul(l.radiance).scale(cos_i * l.inverse_pdf * (weight * eta2));
+                if tables.lights.glow.is_some() {
+                    let on_lamp = lit & !choice.environment;
+                    let ray = (s.start, l.wi);
+                    value = value.mul(lights::share_towards(scene, choice.light, ray, l.distance, on_lamp));
+                }
                 let cast = lit & zero.lt(value.max_component());
                 let k = shadows.len;
                 s.start.compress(cast, &mut shadows.origin, k);

@@ -143,12 +143,20 @@ pub struct Row {
     pub parameters: [Albedo; 2],
     /// A colour beside the first: the tint of metals.
     pub second: Albedo,
+    /// Of what shines the share of its light that each point has.
+    pub glow: Albedo,
 }
 
 impl Row {
     /// A lobe with nothing but a colour.
     fn new(lobe: Lobe, color: Albedo) -> Self {
-        Row { lobe, color, parameters: [Albedo::number(0.0); 2], second: Albedo::number(1.0) }
+        Row {
+            lobe,
+            color,
+            parameters: [Albedo::number(0.0); 2],
+            second: Albedo::number(1.0),
+            glow: Albedo::number(1.0),
+        }
     }
 }
 
@@ -213,6 +221,9 @@ pub struct MaterialTable {
     /// Of each material the numbers of the textures, as in `rows`, that its parameters and its second colour come from;
     /// `None` where all of these are constants.
     pub varying: Option<Table<3>>,
+    /// Of each material the number of the texture, as in `rows`, that says how much of its light each point shines, or
+    /// 0; empty where all that shines does so evenly.
+    pub glow: Vec<u32>,
     /// Whether any material has a texture or a pattern.
     pub textured: bool,
     /// How many textures there are: numbers from here on are patterns'.
@@ -234,7 +245,7 @@ impl MaterialTable {
             place += conductor.rows() as u32;
         }
         let emitter = rows.len() as u32;
-        rows.push(Emissive.row());
+        rows.push(Emissive::EVEN.row());
         let texture = |value: &Albedo| match *value {
             Albedo::Color(_) => 0,
             Albedo::Texture(t) => t + 1,
@@ -244,6 +255,8 @@ impl MaterialTable {
         let number = |value: Albedo| value.constant().unwrap_or([0.0; 3])[0] as f32;
         let others = |row: &Row| [row.parameters[0], row.parameters[1], row.second];
         let varies = rows.iter().flat_map(others).any(|value| texture(&value) != 0);
+        let glow: Vec<u32> = rows.iter().map(|row| texture(&row.glow)).collect();
+        let glows = glow.iter().any(|&number| number != 0);
         MaterialTable {
             rows: Table::new(rows.iter().map(|row| {
                 let [r, g, b] = row.color.constant().unwrap_or([1.0; 3]).map(|x| x as f32);
@@ -254,7 +267,8 @@ impl MaterialTable {
                 .then(|| Table::new(rows.iter().map(|row| others(row).map(|of| f32::from_bits(texture(&of)))))),
             conductors: ConductorTable::new(conductors().map(|(_, conductor)| conductor)),
             lobes: rows.iter().fold(0, |bits, row| bits | 1 << row.lobe as u32),
-            textured: varies || rows.iter().any(|row| texture(&row.color) != 0),
+            glow: if glows { glow } else { Vec::new() },
+            textured: varies || glows || rows.iter().any(|row| texture(&row.color) != 0),
             first_pattern,
             emitter,
         }

@@ -1,9 +1,10 @@
 //! Surfaces that shine.
 
 use super::MaterialWords;
+use crate::codes;
 use crate::desc::amount::{amount_of, put_amount};
-use crate::desc::{Amount, Color, LightGroup, Radiometric};
-use crate::diagnostic::Spanned;
+use crate::desc::{Albedo, Amount, Color, LightGroup, Radiometric};
+use crate::diagnostic::{Diagnostic, Spanned};
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
@@ -15,8 +16,8 @@ use crate::words::{Told, Words, scene_struct};
 pub struct Emissive {
     /// How much light.
     pub amount: Spanned<Amount>,
-    /// Its colour, as far as it differs from its luminance.
-    pub color: Color,
+    /// Its colour, as far as it differs from its luminance; or a texture: the share of the amount that each point has.
+    pub color: Albedo,
     /// Whether it shines to both sides, not only outwards.
     pub two_sided: bool,
     /// The group of lights that what shines so is of.
@@ -43,9 +44,11 @@ scene_struct! {
         luminous_power: Option<Spanned<f64>> = None => Rule::amount("a luminous flux", "in lm");
         /// Luminous intensity of each copy: 683 Y of an intensity.
         luminous_intensity: Option<Spanned<f64>> = None => Rule::amount("a luminous intensity", "in cd");
-        /// The colour of the light. Only what it is beside its own luminance counts: the amount times color / Y(color).
-        /// `"=blackbody(2700)"` is that of a bulb.
-        color: Color = [1.0; 3] => Rule::light("");
+        /// The colour of the light. Of a constant one only what it is beside its own luminance counts: the amount times
+        /// color / Y(color). `"=blackbody(2700)"` is that of a bulb. A texture says how much of the amount, which is
+        /// `radiance` or `luminance` then, each point has: where it is white all of it, where it is black nothing. So
+        /// `luminance: 300, color: Texture(file: "screen.png")` is a screen whose white has 300 cd/m^2.
+        color: Albedo = Albedo::from([1.0; 3]) => Rule::tint();
         /// Whether it shines to both sides; else only to the normal's: outwards.
         two_sided: bool = false;
         /// The group of lights that what shines so is of: with `output.light_groups`, what each group
@@ -55,9 +58,32 @@ scene_struct! {
 }
 
 impl Emissive {
-    /// How much light, per channel.
+    /// How much light, per channel; with a texture where that is white.
     pub fn radiometric(&self) -> Radiometric {
-        self.amount.value.radiometric(self.color)
+        let color = if let Albedo::Color(color) = self.color.resolved() { color.value } else { [1.0; 3] };
+        self.amount.value.radiometric(color)
+    }
+
+    /// The texture that says how much each point shines, where there is one.
+    pub fn texture(&self) -> Option<&Albedo> {
+        (!self.color.is_color()).then_some(&self.color)
+    }
+
+    /// What is wrong with the amount and the colour together: a texture on something that is said of the whole lamp.
+    pub fn fault(&self) -> Option<Diagnostic> {
+        self.texture()?;
+        let (name, other) = match self.amount.value {
+            Amount::Radiance(_) | Amount::Luminance(_) => return None,
+            Amount::Intensity(_) => ("intensity", "radiance"),
+            Amount::Power(_) => ("power", "radiance"),
+            Amount::LuminousIntensity(_) => ("luminous_intensity", "luminance"),
+            Amount::LuminousPower(_) => ("luminous_power", "luminance"),
+        };
+        let message =
+            format!("`{name}` is of the whole lamp, and `color` is a texture: each point shines another part");
+        let fault = Diagnostic::error(codes::NO_USE, self.amount.span, message);
+        let fault = fault.expected("`radiance` or `luminance`, of points where the texture is white");
+        Some(fault.hint(format!("write `{other}` in place of `{name}`, or a `color` that is the same everywhere")))
     }
 }
 
@@ -69,7 +95,12 @@ impl Words for Emissive {
         // None was written, or what was written could not be read: reported.
         let amount = amount_of!(words)?;
         reader.intense |= amount.value.is_intensity();
-        Some(Emissive { amount, color: words.color, two_sided: words.two_sided, group: words.group })
+        let emissive = Emissive { amount, color: words.color, two_sided: words.two_sided, group: words.group };
+        if let Some(fault) = emissive.fault() {
+            reader.report(fault);
+            return None;
+        }
+        Some(emissive)
     }
 
     fn form(&self, all: bool) -> Form {
@@ -80,7 +111,7 @@ impl Words for Emissive {
             luminance: None,
             luminous_power: None,
             luminous_intensity: None,
-            color: self.color,
+            color: self.color.clone(),
             two_sided: self.two_sided,
             group: self.group.clone(),
         };
@@ -101,6 +132,10 @@ impl Told for Emissive {
 }
 
 impl MaterialWords for Emissive {
+    fn varying(&self) -> Vec<&Albedo> {
+        vec![&self.color]
+    }
+
     fn shines(&self) -> Option<&Emissive> {
         Some(self)
     }

@@ -57,7 +57,9 @@ impl Nested {
     /// may be as large.
     pub fn range(&self, at: &'static FieldDef) -> &'static FieldDef {
         match self.of {
-            Some(of) if self.depth > 0 && at.rule.of_texture && of.rule.range != at.rule.range => of,
+            Some(of) if self.depth > 0 && at.rule.of_texture && of.rule.range != at.rule.range => {
+                if of.rule.shared_out { at } else { of }
+            }
             _ => at,
         }
     }

@@ -71,7 +71,7 @@ fn follow(engine: Engine<'_>, pass: LightPass<'_>, shares: &[Share], film: OnFil
     let count = load(shares, batch);
     debug_assert!(count <= PATHS);
     let photons = PhotonPass { seed: pass.seed, count, light_paths: Some(pass.light_paths) };
-    kernels.photons_emit(pass.plan, photons, batch);
+    kernels.photons_emit(scene, pass.plan, photons, batch);
     let mut event = 0;
     batch.watch.lap(Stage::Photons);
     while batch.paths.len > 0 {

@@ -45,7 +45,7 @@ fn trace(engine: Engine<'_>, plan: &Plan, seed: u32, shares: &[Share], batch: &m
     let count = load(shares, batch);
     batch.watch.resume();
     let start = Instant::now();
-    kernels.photons_emit(plan, PhotonPass { seed, count, light_paths: None }, batch);
+    kernels.photons_emit(scene, plan, PhotonPass { seed, count, light_paths: None }, batch);
     let mut stored = Vec::new();
     let mut event = 0;
     while batch.paths.len > 0 {

@@ -3,17 +3,20 @@
 //! Radiance is in the engine's unit, per solid angle and projected area. Densities are in solid angle at the receiver.
 //! A light shines alike in all directions, from its front: outwards, or the side of its normal; from its back, too,
 //! where it has two sides. A sample of a light that does not shine to the receiver has radiance zero. A picture of all
-//! directions ([`environment`]) is a light without a number, infinitely far away.
+//! directions ([`environment`]) is a light without a number, infinitely far away. Where a texture says which points of
+//! a lamp shine more than others, radiance is that of a white point, and [`glow`] says what share of it a point has.
 
 pub mod curved;
 mod environment;
 mod flat;
+mod glow;
 mod selection;
 mod sphere;
 
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{Environment, LightTable};
+pub use glow::{share_at, share_towards};
 pub use selection::{Choice, choose};
 
 /// A direction to a light.

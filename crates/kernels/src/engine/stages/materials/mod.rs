@@ -37,7 +37,8 @@ use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWES
 use blinn_phong::BlinnPhong;
 use conductor::Conductor;
 use std::f32::consts::{FRAC_1_PI, PI};
-use varying::{Numbers, Texel, Varying, texel};
+pub(super) use varying::Texel;
+use varying::{Numbers, Varying, texel};
 
 /// How lanes scatter.
 #[derive(Clone, Copy)]

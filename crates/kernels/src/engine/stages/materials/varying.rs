@@ -40,7 +40,7 @@ pub(super) fn texel<F: Lanes>(
 }
 
 /// The same as a call, from black.
-pub(super) struct Texel<'t, F: Lanes> {
+pub struct Texel<'t, F: Lanes> {
     pub scene: &'t Scene,
     pub number: F::U,
     pub at: At<F>,
