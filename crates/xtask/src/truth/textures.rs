@@ -215,7 +215,6 @@ fn color_of(material: &mut Material) -> Option<&mut Albedo> {
             Reflectance::Tinted { reflectance, .. } => Some(reflectance),
             Reflectance::Metal(_) | Reflectance::Complex { .. } => None,
         },
-        _ => None,
     }
 }
 
