@@ -50,7 +50,7 @@ pub const PROOFS: &[Proof] = &[
     proof(
         "proofs",
         Always,
-        "the engine's proofs that take more than some seconds each; five minutes",
+        "the engine's proofs that take more than some seconds each; seven minutes",
         &[],
         &["cargo test --locked --workspace --test proofs -- --ignored"],
     ),
