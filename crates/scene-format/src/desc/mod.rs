@@ -212,7 +212,7 @@ mod tests {
     /// A scene may have millions of these; `tests/memory.rs` says why they must be small.
     #[test]
     fn what_scenes_have_many_of_is_small() {
-        assert_eq!(size_of::<Spanned<Object>>(), 136);
+        assert_eq!(size_of::<Spanned<Object>>(), 32);
         assert_eq!(size_of::<NamedMaterial>(), 88);
         assert_eq!(size_of::<Spanned<Transform>>(), 64);
     }

@@ -28,7 +28,7 @@ pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
         })
     });
     let of_spheres = scene.spheres.iter().skip(scene.tables.spheres.in_tree).map(|sphere| {
-        let (center, radius) = (DVec3::from(sphere.center), DVec3::splat(sphere.radius.abs()));
+        let (center, radius) = (sphere.center, DVec3::splat(sphere.radius.abs()));
         [center - radius, center + radius]
     });
     let mut any = false;

@@ -70,6 +70,8 @@ fn with_values(arg: Arg, command: &str) -> Arg {
         _ => Vec::new(),
     };
     if !choices.is_empty() {
+        // The words of a command live as long as the program, which ends when they are written.
+        let choices = choices.into_iter().map(|choice| -> &'static str { choice.leak() });
         return arg.value_parser(PossibleValuesParser::new(choices));
     }
     let takes = arg.get_action().takes_values() && !arg.is_positional() && arg.get_possible_values().is_empty();

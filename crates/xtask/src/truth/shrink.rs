@@ -102,7 +102,9 @@ fn plainer(world: &World, other: &mut World, k: usize) {
     if material.is_some_and(|material| matches!(material, Material::Diffuse(_) | Material::BlinnPhong(_))) {
         set_material(&mut object.value, matt(0.5));
     }
-    if let Object::Mesh(Mesh { instances, placements: Placements::One, .. }) = &mut object.value {
-        *instances = Instances::Auto;
+    if let Object::Mesh(mesh) = &mut object.value
+        && matches!(mesh.placements, Placements::One)
+    {
+        mesh.instances = Instances::Auto;
     }
 }
