@@ -17,9 +17,10 @@ mod stdio;
 use documents::Documents;
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, Response};
 use lsp_types::notification::{
-    DidChangeTextDocument, DidCloseTextDocument, DidOpenTextDocument, DidSaveTextDocument, Notification as _,
+    DidChangeTextDocument, DidCloseTextDocument, DidOpenTextDocument, DidSaveTextDocument, Exit, Notification as _,
     PublishDiagnostics,
 };
+use lsp_types::request::{Request as _, Shutdown};
 use lsp_types::{
     CodeActionKind, CodeActionOptions, CodeActionProviderCapability, ColorProviderCapability, CompletionOptions,
     DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, DidSaveTextDocumentParams,
@@ -39,10 +40,11 @@ type Error = Box<dyn std::error::Error + Send + Sync>;
 /// The connection broke, or the other side does not speak the protocol.
 pub fn serve_stdio() -> Result<(), Error> {
     let (connection, threads) = stdio::connection();
-    serve(&connection)?;
-    // The writing thread ends when nobody can write any more.
+    let served = serve(&connection);
+    // The writing thread ends when nobody can write any more. What was answered is written, whatever ended it.
     drop(connection);
-    threads.join()
+    threads.join(served.is_ok())?;
+    served
 }
 
 /// Serves one editor over a connection.
@@ -56,7 +58,13 @@ pub fn serve(connection: &Connection) -> Result<(), Error> {
         Err(error) if error.channel_is_disconnected() => return Ok(()),
         Err(error) => return Err(error.into()),
     };
-    let params: InitializeParams = serde_json::from_value(params)?;
+    let params: InitializeParams = match serde_json::from_value(params) {
+        Ok(params) => params,
+        Err(why) => {
+            connection.sender.send(Response::new_err(id, ErrorCode::InvalidParams as i32, why.to_string()).into())?;
+            return Err(why.into());
+        }
+    };
     let offered = params.capabilities.general.and_then(|general| general.position_encodings).unwrap_or_default();
     let encoding = if offered.contains(&PositionEncodingKind::UTF8) { Encoding::Utf8 } else { Encoding::Utf16 };
     let server = json!({ "name": "tracer", "version": env!("CARGO_PKG_VERSION") });
@@ -67,13 +75,32 @@ pub fn serve(connection: &Connection) -> Result<(), Error> {
     for message in &connection.receiver {
         match message {
             Message::Request(request) => {
-                if connection.handle_shutdown(&request)? {
-                    break;
+                if request.method == Shutdown::METHOD {
+                    connection.sender.send(Response::new_ok(request.id, ()).into())?;
+                    return until_exit(connection);
                 }
                 connection.sender.send(Message::Response(answer(&documents, request)))?;
             }
+            Message::Notification(notification) if notification.method == Exit::METHOD => {
+                return Err("it ends without a shutdown".into());
+            }
             Message::Notification(notification) => heard(connection, &mut documents, &looker, notification)?,
             Message::Response(_) => {}
+        }
+    }
+    Ok(())
+}
+
+/// After `shutdown` nothing is done any more, and `exit` ends it.
+fn until_exit(connection: &Connection) -> Result<(), Error> {
+    for message in &connection.receiver {
+        match message {
+            Message::Request(Request { id, .. }) => {
+                let why = "the server is shut down".to_owned();
+                connection.sender.send(Response::new_err(id, ErrorCode::InvalidRequest as i32, why).into())?;
+            }
+            Message::Notification(told) if told.method == Exit::METHOD => break,
+            Message::Notification(_) | Message::Response(_) => {}
         }
     }
     Ok(())

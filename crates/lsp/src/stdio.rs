@@ -21,12 +21,13 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// Waits until all is written.
+    /// Waits until all is written, and, where it ended well, until nothing more is read.
     ///
     /// # Errors
     /// The first that input or output had.
-    pub fn join(self) -> Result<(), Error> {
-        for thread in [self.reader, self.writer] {
+    pub fn join(self, well: bool) -> Result<(), Error> {
+        let reader = well.then_some(self.reader);
+        for thread in reader.into_iter().chain([self.writer]) {
             thread.join().map_err(|_| "a thread that reads or writes has died")??;
         }
         Ok(())
@@ -102,10 +103,10 @@ fn header(input: &mut impl BufRead) -> io::Result<Option<Option<u64>>> {
             continue;
         }
         any = true;
-        if let Some((name, value)) = line.split_once(':')
-            && name.trim().eq_ignore_ascii_case("Content-Length")
-        {
-            length = value.trim().parse().ok();
+        // It may stand behind what was no message.
+        let name = "content-length:";
+        if let Some(at) = line.to_ascii_lowercase().rfind(name) {
+            length = line.get(at + name.len()..).and_then(|value| value.trim().parse().ok());
         }
     }
 }
@@ -135,6 +136,7 @@ mod tests {
             (frame("[]"), -32600),
             (frame("3"), -32600),
             ("Content-Length: abc\r\n\r\n".to_owned(), -32700),
+            ("Content-Length: abc\r\n\r\n{\"id\": 3}".to_owned(), -32700),
             ("Content-Length: -5\r\nX: 1\r\n\r\n".to_owned(), -32700),
             ("\r\n\nwhat is this\r\n\r\n".to_owned(), -32700),
         ];

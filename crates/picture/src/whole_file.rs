@@ -74,15 +74,25 @@ impl Made {
         }
     }
 
-    /// Whether a file that begins so is of this kind, or as good as empty. No picture is a text, but that some begin as one; the
-    /// reports are known by their first lines.
+    /// Whether a file that begins so is of this kind, or as good as empty: pictures by their first bytes, reports by their
+    /// first lines.
     fn is_begun_by(self, head: &[u8]) -> bool {
         let text = String::from_utf8_lossy(head);
-        let begins = |starts: &[&str]| starts.iter().any(|start| text.starts_with(start));
-        // A character may have been cut at the end.
-        let is_text = !head.contains(&0) && text.chars().rev().skip(1).all(|c| c != char::REPLACEMENT_CHARACTER);
         let known = match self {
-            Made::Picture => !is_text || begins(&["#?RADIANCE", "#?RGBE", "PF", "Pf", "P3", "P6"]),
+            Made::Picture => {
+                let starts: [&[u8]; 9] = [
+                    b"\x89PNG",
+                    b"\x76\x2f\x31\x01",
+                    b"#?RADIANCE",
+                    b"#?RGBE",
+                    b"PF",
+                    b"Pf",
+                    b"\xff\xd8\xff",
+                    b"P6",
+                    b"P3",
+                ];
+                starts.iter().any(|start| head.starts_with(start))
+            }
             Made::Report => {
                 let json = text.trim_start().starts_with('{');
                 let ours = ["\"report_version\"", "\"golden_version\""].iter().any(|word| text.contains(word));

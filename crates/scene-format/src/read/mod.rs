@@ -525,7 +525,7 @@ impl<'r> Reader<'r> {
         let header = item.syntax() == Syntax::Toml && item.kind() == Kind::Map && lexeme.starts_with('[');
         // `[objects.Sphere]` is a table in one: each item of a list begins with its own `[[objects]]`.
         let dotted = lexeme.trim_start_matches('[').trim_end_matches(']').split_once('.').filter(|_| header);
-        if let Some((list, kind)) = dotted {
+        if let Some((list, kind)) = dotted.filter(|(list, kind)| *list == at.name && !kind.contains('.')) {
             let mended = format!("[[{list}]]\n[{list}.{kind}]");
             let message = format!("{} cannot be {}", plain(at.noun), describe(item));
             let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected("a list: [[list]]");

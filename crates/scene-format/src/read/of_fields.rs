@@ -35,9 +35,7 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
             "how it is filtered is `filter`: Bilinear or Nearest"
         }
         "extension" | "wrap_mode" | "extend" if texture => "what is beyond the picture is said by `wrap`",
-        "gamma" | "encoding" | "srgb" | "raw" if texture => {
-            "what its numbers mean is `color_space`; PNG and JPEG are read as sRGB, HDR and EXR as they are"
-        }
+        "gamma" | "encoding" | "srgb" | "raw" if texture => "what its numbers mean is `color_space`",
         "roll" if camera => "it is turned about its view by `up`: (0.1, 1, 0) for a little",
         "focus_on" | "focal_point" if camera => {
             "what is sharp is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_on: ..))`"
@@ -55,7 +53,9 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
             "copies are its `placements`, Grid(..), Ring(..) or Scatter(..), or made by `Repeat(count: 8, items: [..])`"
         }
         "parent" if has("material") => "what is moved together stands in a `Group(objects: [..], transform: [..])`",
-        "title" | "description" | "author" if def.name == "Scene" => "write it as a comment",
+        "title" | "description" | "author" if def.name == "Scene" => {
+            "leave it out; a comment has room for it, but in JSON"
+        }
         "default" | "array" | "driver" | "link" | "functions" if def.name == "Scene" => {
             "values with names stand in `vars`, and are reckoned with in expressions: \"=2*height\""
         }

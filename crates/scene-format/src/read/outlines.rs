@@ -67,13 +67,19 @@ impl Reader<'_> {
             // What is repeated is wrong many times, and told once.
             for mut fault in faults {
                 if told.insert((fault.span, fault.code)) {
-                    fault.message += &which_of_many(&scene.objects.0, number);
+                    // Each is looked for among all: not for thousands of faults, of which few are shown.
+                    if told.len() <= MOST_PLACED {
+                        fault.message += &which_of_many(&scene.objects.0, number);
+                    }
                     self.report(fault);
                 }
             }
         }
     }
 }
+
+/// Of so many faults it is said which of the objects they are of.
+const MOST_PLACED: usize = 64;
 
 /// ` (number 2 of the 9 that are made here, from 0)`, of an object that a repetition makes with others at the same place.
 fn which_of_many(objects: &[Spanned<Object>], number: usize) -> String {

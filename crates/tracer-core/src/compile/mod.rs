@@ -13,6 +13,7 @@ mod hidden_flat;
 mod in_one_place;
 mod kept;
 mod light_groups;
+mod lights_in_one_place;
 mod loading;
 mod materials;
 mod meshes;
@@ -246,6 +247,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     };
     let mut built = meshes::build(&frame, &parts, written.as_mut());
     lights.append(&mut built.lights);
+    lights_in_one_place::keep_first(&mut lights);
     diagnostics.extend(built.unlit.iter().map(|&span| unmeant::unlit(span)));
     let color_table = vertex_colors::table(&programs, &loaded, &built);
     drop((loaded, placed));

@@ -3,11 +3,15 @@
 use glam::DVec3;
 use scene_format::desc::Background;
 use scene_format::{Diagnostic, SceneDesc, codes};
-use tracer_kernels::scene::{Camera, Projection, Scene};
+use tracer_kernels::scene::{Camera, Filter, Projection, Scene};
 
 /// Warns where all boxes of the scene lie beyond one of the planes that bound the view. Where something is in view in
 /// part, behind others, or between boxes, that is for the picture to tell.
 pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
+    // While the shutter is open what is beside the view may come into it.
+    if desc.camera.shutter.value > 0.0 {
+        return None;
+    }
     // A sky may be all that is meant.
     if matches!(desc.background, Background::Environment(_)) {
         return None;
@@ -17,8 +21,13 @@ pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
         return None;
     }
     let few = scene.size[0].min(scene.size[1]).max(1);
-    // A pixel's filter reaches some pixels beyond the border.
-    let margin = 0.02 + 16.0 / f64::from(few);
+    // A pixel's filter reaches some pixels beyond the border; of a normal one next to nothing is left at eight sigma.
+    let reach = match scene.camera.filter {
+        Filter::Centre | Filter::Box => 1.0,
+        Filter::Gaussian(sigma) => 8.0 * sigma,
+        Filter::BlackmanHarris(radius) => radius,
+    };
+    let margin = 0.02 + 2.0 * reach / f64::from(few);
     let beside = beyond_one_plane(&scene.camera, margin)?;
     let boxes = scene.second_boxes.as_ref();
     let of_tree = boxes.into_iter().flat_map(|boxes| {

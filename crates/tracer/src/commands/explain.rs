@@ -20,7 +20,8 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode, Failure> {
             let kinds = match &asked[..asked.len() - digits.len()] {
                 "" => &["E", "W"][..],
                 "E" | "e" => &["E"],
-                _ => &["W"],
+                "W" | "w" => &["W"],
+                _ => &[],
             };
             let codes: Vec<&Entry> = match digits.parse::<u16>().ok() {
                 Some(number) => kinds.iter().filter_map(|kind| find(&format!("{kind}{number:04}"))).collect(),

@@ -549,6 +549,7 @@ fn what_is_something_else_is_not_replaced() {
     render(&["-o", "empty.png"]).ends(0);
     sandbox.run(&["compare", "a.png", "a.png", "-o", "notes.png"]).ends(2).says(&["is no picture"]);
     fs::create_dir(sandbox.path("golden")).expect("a folder");
+    sandbox.write("golden/golden.toml", "");
     sandbox.write("golden/one.ron", sandbox.text("scene.ron"));
     for option in ["--json", "--junit", "--html"] {
         sandbox.run(&["golden", "run", "golden", option, "other.ron"]).ends(2).says(&["is no report"]);

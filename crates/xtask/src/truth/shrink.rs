@@ -4,7 +4,7 @@ use super::draw::{material_of, set_material};
 use super::examine::{Finding, still};
 use super::kinds::Case;
 use super::world::{World, matt};
-use scene_format::desc::{Background, Effects, Instances, Material, MaterialRef, Mesh, Object, Placements};
+use scene_format::desc::{Background, Effects, Instances, Material, MaterialRef, Object, Placements};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 

@@ -8,9 +8,6 @@ use rayon::prelude::*;
 /// thousands of surfaces that all lie in each other.
 const MOST_PAIRS: usize = 1 << 22;
 
-/// Planes with more triangles are counted before their pairs are kept.
-const COUNTED: usize = 128;
-
 /// A plane of m triangles is left out where its sweep would test more than `TESTS + m TESTS_EACH` pairs.
 const TESTS: usize = 1 << 23;
 const TESTS_EACH: usize = 512;
@@ -35,16 +32,17 @@ pub(super) fn pairs_in(planes: Vec<(Vec<u32>, f64)>, faces: &[Face]) -> Vec<(u32
 /// The planes whose pairs can be found and kept, those with the fewest first. Which these are depends on the scene
 /// alone.
 fn within_bounds(planes: Vec<(Vec<u32>, f64)>, faces: &[Face]) -> Vec<(Vec<u32>, f64)> {
-    if planes.iter().all(|(members, _)| members.len() <= COUNTED) {
+    // Mostly there are too few triangles for so many.
+    let at_most = planes.iter().map(|(members, _)| members.len() * (members.len() - 1) / 2).sum::<usize>();
+    if at_most <= MOST_PAIRS {
         return planes;
     }
     let counted = |plane: (Vec<u32>, f64)| {
         let mut count = 0;
-        let whole = plane.0.len() <= COUNTED
-            || sweep(&plane.0, faces, |_, _| {
-                count += 1;
-                count <= MOST_PAIRS
-            });
+        let whole = sweep(&plane.0, faces, |_, _| {
+            count += 1;
+            count <= MOST_PAIRS
+        });
         whole.then_some((count, plane))
     };
     let mut counts: Vec<(usize, (Vec<u32>, f64))> = planes.into_par_iter().filter_map(counted).collect();
