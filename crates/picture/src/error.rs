@@ -34,7 +34,7 @@ pub enum WriteError {
         path: PathBuf,
     },
     /// There is a file of that name that is something else: it is not replaced.
-    #[error("{} is there already and is no {noun}: it is not replaced; name another file, or remove it", path.display())]
+    #[error("{} is there already and is no {noun}: it is not replaced; name another file", path.display())]
     Other {
         /// The file.
         path: PathBuf,

@@ -74,8 +74,8 @@ impl Made {
         }
     }
 
-    /// Whether a file that begins so is of this kind, or as good as empty: pictures by their first bytes, reports by their
-    /// first lines.
+    /// Whether a file that begins so is of this kind, or as good as empty: pictures by their first bytes, reports by
+    /// their first lines.
     fn is_begun_by(self, head: &[u8]) -> bool {
         let text = String::from_utf8_lossy(head);
         let known = match self {

@@ -183,7 +183,7 @@ shapes! {
     /// A flat face with any number of corners.
     Polygon(Box<Polygon>);
     /// A triangle mesh from a file.
-    Mesh(Box<Mesh>);
+    Mesh(Mesh);
     /// Closed shapes put together to one body.
     Union(Box<Union>);
     /// What closed shapes have in common: of two balls a lens.

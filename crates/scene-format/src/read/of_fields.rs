@@ -47,7 +47,7 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
             "two eyes are `stereo: Stereo(..)`"
         }
         "velocity" | "motion" if has("material") => {
-            "what moves has expressions of `time`: `center: (\"=time\", 0, 0)`, seen while the camera's `shutter` is open"
+            "what moves has expressions of `time`: `center: (\"=time\", 0, 0)`, and the camera a `shutter`"
         }
         "count" | "repeat" | "copies" if has("placements") => {
             "copies are its `placements`, Grid(..), Ring(..) or Scatter(..), or made by `Repeat(count: 8, items: [..])`"

@@ -81,7 +81,8 @@ impl Reader<'_> {
 /// Of so many faults it is said which of the objects they are of.
 const MOST_PLACED: usize = 64;
 
-/// ` (number 2 of the 9 that are made here, from 0)`, of an object that a repetition makes with others at the same place.
+/// ` (number 2 of the 9 that are made here, from 0)`, of an object that a repetition makes with others at the same
+/// place.
 fn which_of_many(objects: &[Spanned<Object>], number: usize) -> String {
     let span = objects[number].span;
     let made_here = |objects: &[Spanned<Object>]| objects.iter().filter(|object| object.span == span).count();

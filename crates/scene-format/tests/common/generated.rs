@@ -424,7 +424,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             })),
             _ => {
                 let of_file = random.below(2) == 0;
-                Object::Mesh(Box::new(Mesh {
+                Object::Mesh(Mesh {
                     source: match of_file {
                         true => MeshSource::File(PathBuf::from(text(random)).into()),
                         false => inline_mesh(random),
@@ -437,7 +437,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                     shading: *random.pick(&[Shading::Auto, Shading::Smooth, Shading::Flat]),
                     camera_visible: random.below(4) != 0,
                     name: name(random),
-                }))
+                })
             }
         };
         // What crosses itself is no outline; three points do not, joined by straight lines.

@@ -59,6 +59,7 @@ impl Face {
 }
 
 /// Warns of them, of all together once.
+// Long: faces are gathered, sorted by place and held against each other, and each step needs what the one before has.
 pub fn warn(desc: &SceneDesc, placed: &Placed, diagnostics: &mut Diagnostics) {
     let materials: BTreeMap<&str, &Material> =
         desc.materials.iter().map(|named| (&*named.name.value, &named.material)).collect();

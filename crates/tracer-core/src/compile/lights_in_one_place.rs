@@ -1,5 +1,5 @@
-//! Flat lamps in one place: one of them is seen wherever all are, the first ([`tracer_kernels::bvh`]), so that the others
-//! give no light either.
+//! Flat lamps in one place: one of them is seen wherever all are, the first ([`tracer_kernels::bvh`]), so that the
+//! others give no light either.
 //!
 //! Lamps that lie in one plane and overlap only in part still all shine, each with all of its area.
 

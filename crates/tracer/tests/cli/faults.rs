@@ -538,7 +538,7 @@ fn what_is_something_else_is_not_replaced() {
         let line = ["render", "scene.ron", "--size", "4x4", "--samples", "1"];
         sandbox.run(&[&line[..], more].concat())
     };
-    render(&["-o", "a.png", "--report", "other.ron"]).ends(2).says(&["other.ron", "is no report", "remove it"]);
+    render(&["-o", "a.png", "--report", "other.ron"]).ends(2).says(&["other.ron", "is no report", "name another"]);
     render(&["-o", "notes.png"]).ends(2).says(&["notes.png", "is no picture"]);
     assert_eq!((sandbox.text("other.ron"), sandbox.text("notes.png")), (notes.to_owned(), notes.to_owned()));
     for name in ["a.png", "a.exr", "a.hdr", "a.pfm"] {

@@ -146,7 +146,7 @@ fn empty_pictures_are_told() {
     assert_eq!(codes(&sandbox, &scene(lamp, behind)), ["W0309"]);
     let away = lamp.replace("30)", "-30)");
     assert_eq!(codes(&sandbox, &scene(&away, "Sphere(center: (0, 0, 0), radius: 1)")), ["W0308"]);
-    // That nothing can be in view is told before the picture is made: behind, aside, above; not what is in view in part.
+    // That nothing can be in view is told before the picture is made: behind, aside, above; not what is seen in part.
     let check = |camera: &str, objects: &str| {
         let text = format!("Scene(background: 0.5, camera: Camera({camera}), objects: [{objects}])");
         sandbox.write("odd.ron", text);
@@ -318,5 +318,29 @@ fn what_lies_in_the_plane_of_another_is_told() {
         format!("Rectangle(size: 6), Box(center: (0, 0.5, 0), size: 1, {red})"),
     ] {
         assert!(code(&seen).is_empty(), "{seen}");
+    }
+}
+
+/// Of flat lamps in one place one is seen, and one shines.
+#[test]
+fn lamps_in_one_place_are_one_lamp() {
+    let sandbox = Sandbox::new();
+    let floor = "Rectangle(size: 20, material: Diffuse(albedo: 0.5))";
+    let lamps = [
+        "Rectangle(center: (0, 1, 0), normal: (0, -1, 0), size: 1, material: Emissive(radiance: 3))",
+        "Disk(center: (0, 1, 0), normal: (0, -1, 0), radius: 0.5, material: Emissive(radiance: 3))",
+        "Box(center: (0, 1, 0), size: 0.5, material: Emissive(radiance: 3))",
+        "Polygon(points: [(0, 1, 0), (0, 1, 1), (1, 1, 0)], material: Emissive(radiance: 3, two_sided: true))",
+    ];
+    for lamp in lamps {
+        for (name, objects) in
+            [("one", format!("{floor}, {lamp}")), ("three", format!("{floor}, {lamp}, {lamp}, {lamp}"))]
+        {
+            let look = "camera: Camera(position: (0, 1, 4), look_at: (0, 0, 0)), image: Image(width: 24, height: 24)";
+            sandbox.write(&format!("{name}.ron"), format!("Scene({look}, objects: [{objects}])"));
+            let picture = format!("{name}.exr");
+            sandbox.run(&["render", &format!("{name}.ron"), "-o", &picture, "--samples", "16"]).ends(0);
+        }
+        sandbox.run(&["compare", "one.exr", "three.exr", "--fail-above", "max=0"]).ends(0);
     }
 }

@@ -1,7 +1,7 @@
 //! Triangles that are the same: a `Repeat` whose items do not go by its index makes thousands of them.
 //!
-//! Where one of them is passed all are, so that the first stands for those beyond the first few: these win over nothing,
-//! and have the winners that it has, and it.
+//! Where one of them is passed all are, so that the first stands for those beyond the first few: these win over
+//! nothing, and have the winners that it has, and it.
 
 use super::find::Face;
 use rayon::prelude::*;

@@ -91,7 +91,7 @@ pub fn placed(
     transform: Vec<Transform>,
     placements: Placements,
 ) -> Object {
-    Object::Mesh(Box::new(Mesh {
+    Object::Mesh(Mesh {
         source: MeshSource::File(file.to_owned().into()),
         part: Part::default(),
         material: inline(material),
@@ -101,7 +101,7 @@ pub fn placed(
         shading,
         camera_visible: true,
         name: Name::default(),
-    }))
+    })
 }
 
 fn inline(material: Material) -> MaterialRef {
