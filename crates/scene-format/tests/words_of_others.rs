@@ -482,7 +482,7 @@ fn more_kinds_and_fields() {
         ("Box(size: 1, material: Diffuse(albedo: Volume()))", "Noise"),
         ("Box(size: 1, parent: \"a\")", "Group"),
         ("Box(size: 1, velocity: (1, 0, 0))", "time"),
-        ("Box(size: 1, placements: Array(count: 3))", "Grid"),
+        ("Box(size: 1, placements: Array(count: (3, 1, 1), spacing: (2, 1, 1)))", "Grid"),
     ];
     check(&cases, |object| scene("", "", object));
     let cases = [
