@@ -339,6 +339,7 @@ fn lamps_in_one_place_are_one_lamp() {
             let picture = format!("{name}.exr");
             sandbox.run(&["render", &format!("{name}.ron"), "-o", &picture, "--samples", "16"]).ends(0);
         }
-        sandbox.run(&["compare", "one.exr", "three.exr", "--fail-above", "max=0"]).ends(0);
+        // Rays start a little farther off surfaces in one plane, so that roundings differ; a second lamp would show.
+        sandbox.run(&["compare", "one.exr", "three.exr", "--fail-above", "max=0.0001"]).ends(0);
     }
 }
