@@ -74,9 +74,9 @@ fn developed(film: Film) -> Image {
 // same text), 11.5 M. Spheres have two more fields, `transform` and `placements`, since: 1.13 M (callgrind of `convert`
 // on 4000 spheres). They have names, and any value may be picked, any item repeated, grouped or included since: 2.1 M
 // (callgrind of `check` on 500 and 1500 spheres); 14.8 M then, 13.0 M by what the compiler inlines since descriptions
-// are serde's, too. Objects have eight bytes more since meshes name a part of their file: 13.42 M.
+// are serde's, too.
 #[library_benchmark]
-#[bench::ron(args = (many_spheres(1_000)), config = at_most(13_500_000))]
+#[bench::ron(args = (many_spheres(1_000)), config = at_most(13_400_000))]
 fn read(text: String) -> Loaded {
     black_box(load_str("many.ron", black_box(&text), Syntax::Ron, Path::new("."), &[]).expect("a scene that is right"))
 }

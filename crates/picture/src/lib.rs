@@ -42,8 +42,8 @@ pub use error::{WriteError, advice};
 pub use provenance::{Provenance, Setting};
 pub use told::{Told, ToldError, told, told_in};
 pub use whole_file::{
-    Made, forget_unfinished, is_one_file, leads_to_same, probe, real_place, remember_unfinished, remove_unfinished,
-    save, spare, spare_other, try_remove_unfinished,
+    OutputKind, forget_unfinished, is_one_file, leads_to_same, probe, real_place, remember_unfinished,
+    remove_unfinished, save, spare, spare_other, try_remove_unfinished,
 };
 
 use sha2::{Digest, Sha256};

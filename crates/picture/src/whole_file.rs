@@ -59,18 +59,18 @@ const WORTH: usize = 8;
 
 /// What is made again and again, and replaces what was made before without a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Made {
+pub enum OutputKind {
     /// A picture.
     Picture,
     /// A report, or a page or drawing that goes with a picture: JSON, XML, HTML, SVG.
     Report,
 }
 
-impl Made {
+impl OutputKind {
     fn noun(self) -> &'static str {
         match self {
-            Made::Picture => "picture",
-            Made::Report => "report of tracer",
+            OutputKind::Picture => "picture",
+            OutputKind::Report => "report of tracer",
         }
     }
 
@@ -79,7 +79,7 @@ impl Made {
     fn is_begun_by(self, head: &[u8]) -> bool {
         let text = String::from_utf8_lossy(head);
         let known = match self {
-            Made::Picture => {
+            OutputKind::Picture => {
                 let starts: [&[u8]; 9] = [
                     b"\x89PNG",
                     b"\x76\x2f\x31\x01",
@@ -93,7 +93,7 @@ impl Made {
                 ];
                 starts.iter().any(|start| head.starts_with(start))
             }
-            Made::Report => {
+            OutputKind::Report => {
                 let json = text.trim_start().starts_with('{');
                 let ours = ["\"report_version\"", "\"golden_version\""].iter().any(|word| text.contains(word));
                 json && ours
@@ -111,17 +111,17 @@ impl Made {
 ///
 /// # Errors
 /// That something else is there.
-pub fn spare_other(path: &Path, made: Made) -> Result<(), WriteError> {
+pub fn spare_other(path: &Path, kind: OutputKind) -> Result<(), WriteError> {
     /// So much of a file tells what it is: the page of goldens has its policy first.
     const HEAD: u64 = 4096;
     let is_file = fs::metadata(path).is_ok_and(|found| found.is_file());
     let mut head = Vec::new();
     // Who cannot read a file cannot say that it is a report.
     let known = is_file && fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head)).is_ok();
-    if !is_file || known && made.is_begun_by(&head) {
+    if !is_file || known && kind.is_begun_by(&head) {
         return Ok(());
     }
-    Err(WriteError::Other { path: path.to_owned(), noun: made.noun() })
+    Err(WriteError::Other { path: path.to_owned(), noun: kind.noun() })
 }
 
 /// Writes a file, whole or not at all. A link is followed; an older file's permissions are kept; what is no regular

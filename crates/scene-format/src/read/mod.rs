@@ -536,11 +536,11 @@ impl<'r> Reader<'r> {
             self.report(fault);
             return None;
         }
+        let transform = || elsewhere::lone_transform(item).filter(|_| at.name == "transform");
         let edit = match item.kind() {
-            _ if at.name == "transform" && elsewhere::lone_transform(item).is_some() => elsewhere::lone_transform(item),
             _ if header => (!lexeme.starts_with("[[")).then(|| format!("[{lexeme}]")),
             Kind::Struct | Kind::Map | Kind::Tuple if item.name().is_some() || item.kind() == Kind::Map => {
-                Some(format!("[{lexeme}]"))
+                transform().or_else(|| Some(format!("[{lexeme}]")))
             }
             Kind::Tuple => lexeme.get(1..lexeme.len() - 1).map(|inner| format!("[{inner}]")),
             Kind::Text if matches!(at.kind, Type::List(Type::File)) => Some(format!("[{lexeme}]")),

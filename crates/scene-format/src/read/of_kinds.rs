@@ -5,6 +5,91 @@ use super::synonyms::squeezed;
 use crate::desc::{Material, Object};
 use crate::schema::EnumDef;
 
+/// Objects of other programs.
+pub(super) const OBJECTS: Hints = &[
+    (
+        &["pyramid", "tetrahedron", "wedge", "prism", "loft"],
+        "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`",
+    ),
+    (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
+    (
+        &["bezier"],
+        "a curve is a `Tube` with `curve: Bezier`; of patches make a mesh, in OBJ, OFF, PLY, STL, glTF or GLB, and \
+         name its file in a `Mesh`",
+    ),
+    (
+        &["nurbs", "text"],
+        "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a \
+         `Mesh`",
+    ),
+    (
+        &["instance", "instances", "objectinstance", "copy", "array", "clone", "for", "loop"],
+        "copies of an object are its `placements`: a list, a file, Grid(..), Ring(..) or Scatter(..); `Repeat(count: \
+         .., items: [..])` makes \
+         objects by a rule",
+    ),
+    (
+        &["csg", "boolean", "booleanmodifier", "solid"],
+        "closed shapes are put together by Union(objects: [..]) and cut by Intersection(objects: [..]) and \
+         Difference(objects: [..]), the first without the others",
+    ),
+    (
+        &["import", "link", "reference", "scene", "use"],
+        "another scene comes by `Include(file: ..)`, geometry of other files by `Mesh(file: ..)`",
+    ),
+    (
+        &["arealight", "area", "quadlight", "rectlight", "rectanglelight", "meshlight", "lamp"],
+        "a lamp is an object that shines: `Rectangle(size: 1, material: Emissive(radiance: 5))`",
+    ),
+    (&["spherelight", "pointlight", "light", "sun", "spotlight"], "lights stand in `lights`, beside `objects`"),
+    (&["bevel", "roundedbox", "roundbox", "chamfer"], "edges are rounded by `Box(size: 1, rounding: 0.1)`"),
+    (&["empty", "null"], "what only holds others is a `Group(objects: [..])`; a point needs no object"),
+    (&["line", "lines", "segment", "polyline"], "a line has a thickness: `Tube(points: [..], radius: 0.02)`"),
+    (&["point"], "a point is a small `Sphere`; a light without size is a small `SphereLight`"),
+    (&["camera"], "the camera is the scene's `camera`, beside `objects`"),
+    (
+        &["volume", "fog", "medium", "smoke", "hair", "particles", "points", "metaballs", "sdf"],
+        "there is no such thing: surfaces only",
+    ),
+];
+
+/// Materials of other programs.
+pub(super) const MATERIALS: Hints = &[
+    (
+        &["translucent", "difftrans", "subsurface", "sss", "skin", "wax", "cloth", "velvet", "sheen", "hair", "paper"],
+        "there is no such material; the nearest are `Diffuse` and, for what lets light through, `Transparent(ior: \
+         1.5)`",
+    ),
+    (
+        &[
+            "principled",
+            "disney",
+            "pbr",
+            "standard",
+            "metallicroughness",
+            "uber",
+            "plastic",
+            "roughplastic",
+            "coat",
+            "coateddiffuse",
+            "clearcoat",
+            "meshstandardmaterial",
+        ],
+        "a coloured surface with a gloss is BlinnPhong(albedo: .., exponent: 1000, specular: 0.1, energy_conserving: \
+         true)",
+    ),
+    (&["frostedglass", "frosted", "roughglass", "roughdielectric"], "glass is smooth here: Transparent(ior: 1.5)"),
+    (
+        &["mix", "blend", "blendbsdf", "layered", "mixshader", "mix_shader"],
+        "materials cannot be mixed, but colours can: Diffuse(albedo: Mix(a: .., b: ..)); `BlinnPhong` mixes a matt and \
+         a glossy share",
+    ),
+    (&["pigment", "color", "rgb"], "a colour is the `albedo` of a material: Diffuse(albedo: (0.8, 0.2, 0.1))"),
+    (&["null", "none", "invisible"], "leave the object out"),
+    (&["thindielectric", "thintransparent"], "a pane is a thin `Box` of Transparent(ior: 1.5)"),
+    (&["normalmap", "bumpmap", "bump", "displacement"], "surfaces have no bumps: they need to be in the mesh"),
+];
+
 /// Lights of other programs.
 pub(super) const LIGHTS: Hints = &[
     (

@@ -164,8 +164,11 @@ impl<'p> Parser<'p> {
                     return self.unexpected();
                 }
                 let word = &self.text[start..start + length];
-                let reckons = || arithmetic::reckons(&self.text[start + length..]);
-                if (expression::is_known(word) || reckons()) && self.arithmetic(start) {
+                // Words are followed by a bracket or a comma nearly always: nothing else is asked of those.
+                let after = &self.text[start + length..];
+                let plain = matches!(after.as_bytes().first(), Some(b'(' | b',' | b')' | b']' | b'\n'));
+                let reckoned = !plain && arithmetic::reckons(after);
+                if (expression::is_known(word) || reckoned) && self.arithmetic(start) {
                     return;
                 }
                 self.at += length;

@@ -5,7 +5,7 @@ use crate::args::CompareArgs;
 use crate::compare::{Difference, Kind, Metric, Picture, difference, false_colours};
 use crate::failure::{Failure, exit};
 use crate::loading::nearby;
-use crate::write::{Bits, Encoding, Made, Place, Provenance, is_one_file, probe, spare_other, write};
+use crate::write::{Bits, Encoding, OutputKind, Place, Provenance, is_one_file, probe, spare_other, write};
 use serde_json::json;
 use std::io::Write;
 use std::path::Path;
@@ -28,7 +28,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
             )));
         }
         probe(path)?;
-        spare_other(path, Made::Picture)?;
+        spare_other(path, OutputKind::Picture)?;
     }
     let (a, b) = (picture(&args.a)?, picture(&args.b)?);
     let Some(difference) = difference(&a, &b) else {

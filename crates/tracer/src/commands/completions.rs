@@ -75,7 +75,8 @@ fn with_values(arg: Arg, command: &str) -> Arg {
         return arg.value_parser(PossibleValuesParser::new(choices));
     }
     let takes = arg.get_action().takes_values() && !arg.is_positional() && arg.get_possible_values().is_empty();
-    let is_path = arg.get_value_names().into_iter().flatten().any(|name| PATHS.iter().any(|path| name.contains(path)));
-    let is_path = is_path && !arg.get_value_names().into_iter().flatten().any(|name| name.contains('='));
+    let names = || arg.get_value_names().into_iter().flatten();
+    // `PATH=VALUE` is one of a field.
+    let is_path = names().any(|name| !name.contains('=') && PATHS.iter().any(|path| name.contains(path)));
     if takes && !is_path { arg.value_hint(ValueHint::Other) } else { arg }
 }

@@ -15,7 +15,7 @@ use crate::loading::{
 };
 use crate::progress::Watch;
 use crate::shell::Shell;
-use crate::write::{Encoding, Made, encode, is_one_file, probe, save, sha256, spare_other};
+use crate::write::{Encoding, OutputKind, encode, is_one_file, probe, save, sha256, spare_other};
 use crate::{interrupt, lanes};
 use scene_format::{MAX_FILE_BYTES, SceneDesc};
 use std::fs;
@@ -114,7 +114,7 @@ fn check_output(args: &ReproArgs, told: &Told) -> Result<(), Failure> {
         return Err(Failure::wrong(format!("-o {shown} would replace what is made again; name another file")));
     }
     probe(output)?;
-    Ok(spare_other(output, Made::Picture)?)
+    Ok(spare_other(output, OutputKind::Picture)?)
 }
 
 fn spare_files(args: &ReproArgs, files: &[PathBuf]) -> Result<(), Failure> {

@@ -7,7 +7,7 @@ use crate::args::GoldenRunArgs;
 use crate::failure::{Failure, exit};
 use crate::loading::use_threads;
 use crate::shell::Shell;
-use crate::write::{Made, is_one_file, leads_to_same, probe, save, spare_other};
+use crate::write::{OutputKind, is_one_file, leads_to_same, probe, save, spare_other};
 use crate::{interrupt, lanes};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -174,7 +174,7 @@ impl<'a> Outputs<'a> {
             own.extend([opened.path.join(FILE), opened.path.join("log.md")]);
             self.spare(&own)?;
         }
-        self.files.iter().try_for_each(|(_, path)| Ok(spare_other(path, Made::Report)?))
+        self.files.iter().try_for_each(|(_, path)| Ok(spare_other(path, OutputKind::Report)?))
     }
 
     fn write(&self, outcomes: &[Outcome]) -> Result<(), Failure> {

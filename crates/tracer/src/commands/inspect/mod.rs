@@ -8,7 +8,7 @@ use crate::args::{InspectArgs, InspectForm};
 use crate::failure::{Failure, exit};
 use crate::loading::{Known, asset_files, compile, is_dash, load};
 use crate::shell::Shell;
-use crate::write::{Made, is_one_file, probe, save, spare_other};
+use crate::write::{OutputKind, is_one_file, probe, save, spare_other};
 use scene_format::SceneDesc;
 use scene_format::desc::Integrator;
 use std::io::Write;
@@ -50,7 +50,7 @@ pub(super) fn run(args: &InspectArgs, shell: &Shell) -> Result<ExitCode, Failure
     spare_inputs(args, &named)?;
     if let Some(svg) = &args.svg {
         probe(svg)?;
-        spare_other(svg, Made::Report)?;
+        spare_other(svg, OutputKind::Report)?;
     }
     let scene = compile(&desc, args.scene.diagnostics, Known::Nothing, shell)?;
     spare_inputs(args, &scene.files)?;

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::loading::is_dash;
 use crate::report::FileReport;
 use crate::shell::Shell;
-use crate::write::{Bits, Encoding, Made, Place, is_one_file, spare_other};
+use crate::write::{Bits, Encoding, OutputKind, Place, is_one_file, spare_other};
 use scene_format::SceneDesc;
 use std::collections::HashSet;
 use std::io::{IsTerminal, Read};
@@ -317,8 +317,8 @@ pub fn probe(outputs: &[Output], report: Option<&Path>) -> Result<(), Failure> {
 pub fn spare_others(outputs: &[Output], report: Option<&Path>) -> Result<(), Failure> {
     for output in outputs {
         if let Place::File(path) = &output.place {
-            spare_other(path, Made::Picture)?;
+            spare_other(path, OutputKind::Picture)?;
         }
     }
-    report.filter(|report| !is_dash(report)).map_or(Ok(()), |report| Ok(spare_other(report, Made::Report)?))
+    report.filter(|report| !is_dash(report)).map_or(Ok(()), |report| Ok(spare_other(report, OutputKind::Report)?))
 }
