@@ -16,8 +16,9 @@ use lsp_types::{
     PrepareRenameResponse, Range, ReferenceParams, RenameParams, SymbolKind, TextDocumentPositionParams, TextEdit, Uri,
     WorkspaceEdit,
 };
-use scene_format::FileKind;
 use scene_format::analysis::{self, CompletionKind, Symbol};
+use scene_format::diagnostic::Severity;
+use scene_format::{FileKind, LoadError};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::HashMap;
@@ -300,6 +301,13 @@ fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeAc
     Some(actions)
 }
 
+/// The first error of a scene in words.
+fn first_of(error: &LoadError) -> String {
+    let LoadError::Invalid { diagnostics, .. } = error else { return error.to_string() };
+    let first = diagnostics.iter().find(|fault| fault.severity == Severity::Error);
+    first.map_or_else(|| error.to_string(), |fault| fault.message.clone())
+}
+
 /// Nothing of what is no scene.
 ///
 /// # Errors
@@ -307,7 +315,7 @@ fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeAc
 fn formatting(documents: &Documents, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>, String> {
     let Some(document) = documents.scene(&params.text_document.uri) else { return Ok(None) };
     let tidy = scene_format::format(&document.name(), &document.text, document.syntax)
-        .map_err(|error| format!("a scene with errors is not laid out: {error}"))?;
+        .map_err(|error| format!("a scene with errors is not laid out: {}", first_of(&error)))?;
     if *tidy == *document.text {
         return Ok(Some(Vec::new()));
     }

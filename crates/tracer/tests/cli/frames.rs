@@ -257,9 +257,9 @@ fn cameras_are_chosen_by_name() {
     sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(0);
     assert_ne!(sandbox.read("near.pfm"), sandbox.read("top.pfm"));
     let set = ["--set", "camera=top", "--set", "camera.fov=20", "-o", "x.png"];
-    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.\"top\".fov"]);
+    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.top.fov"]);
     let set = ["--set", "camera.fov=20", "-o", "x.png"];
-    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.\"front\".fov"]);
+    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.front.fov"]);
     sandbox.run(&["render", "film.ron", "--frame", "-1"]).ends(2).says(&["--frame"]);
 }
 

@@ -108,7 +108,7 @@ fn who_is_shut_in_is_told() {
         "Group(objects: [Sphere(center: (0, 1, 0), radius: 2)], transform: [Translate((0, 0, 6))])",
         "Mesh(file: \"box.obj\", transform: [Translate((-0.5, 0.5, 5.5))])",
         "Lathe(profile: [(0, 0), (1, 0), (1, 2), (0, 2)], transform: [Translate((0, 0, 6))])",
-        "Extrude(outline: [(-1, -1), (1, -1), (0, 1)], depth: 2, transform: [Translate((0, 1, 5))])",
+        "Extrude(outline: [[(-1, -1), (1, -1), (0, 1)]], depth: 2, transform: [Translate((0, 1, 5))])",
         "Box(center: (0, 1, 6), size: 2, rounding: 0.2)",
         "Torus(radius: 6, tube_radius: 1.5)",
         "Difference(objects: [Box(center: (0, 1, 6), size: 4), Sphere(center: (1.5, 1, 6), radius: 0.5)])",
