@@ -31,8 +31,8 @@ pub fn comments(text: &str, syntax: Syntax) -> usize {
 }
 
 /// Writes a scene as everybody's looks: what fits on a line of 100 characters on one line, else one entry a line, with
-/// the person's comments, order and empty lines (one of several). What it gives it leaves as it is. Lines end as most of
-/// them did, and a byte order mark stays. `name` is shown in diagnostics.
+/// the person's comments, order and empty lines (one of several). What it gives it leaves as it is. Lines end as most
+/// of them did, and a byte order mark stays. `name` is shown in diagnostics.
 ///
 /// # Errors
 /// As [`convert`], but names that nobody has given and values out of range do not count, as they are laid out all the

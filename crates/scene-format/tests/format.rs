@@ -250,10 +250,24 @@ fn comments_within_numbers_stay_with_their_field() {
     let laid_out = format!("# red\n# green\n\nbackground = [0.5, 0.6, 0.7] # blue\n\n{tidy}");
     assert_eq!(format("a.toml", &text(toml), Syntax::Toml).expect("it is right"), laid_out);
     assert_eq!(format("a.toml", &laid_out, Syntax::Toml).expect("it is right"), laid_out);
-    let ron = "Scene(\n    // red\n    // green\n    background: (0.5, 0.6, 0.7), // blue\n    objects: [\n        Sphere(\n            // across\n            center: (0, 0, 0), // after\n            radius: 1, // r\n        ),\n    ],\n)\n";
+    let ron = "\
+Scene(
+    // red
+    // green
+    background: (0.5, 0.6, 0.7), // blue
+    objects: [
+        Sphere(
+            // across
+            center: (0, 0, 0), // after
+            radius: 1, // r
+        ),
+    ],
+)
+";
     assert_eq!(convert("a.toml", &text(toml), Syntax::Toml, Syntax::Ron).expect("it is right"), ron);
     let within = "Scene(background: (0.5, /* green */ 0.6, 0.7), objects: [Sphere(center: (0, 0, 0), radius: 1)])";
-    let tidy = "Scene(\n    // green\n    background: (0.5, 0.6, 0.7),\n    objects: [Sphere(center: (0, 0, 0), radius: 1)],\n)\n";
+    let tidy = "Scene(\n    // green\n    background: (0.5, 0.6, 0.7),\n    \
+                objects: [Sphere(center: (0, 0, 0), radius: 1)],\n)\n";
     assert_eq!(format("a.ron", within, Syntax::Ron).expect("it is right"), tidy);
 }
 

@@ -37,8 +37,8 @@ codes! {
     /// Scene(background: 1, objects: [Sphere(center: (0, 0, 5), radius: 1)])
     /// ```
     CAMERA_SHUT_IN "W0306" "the camera is shut in";
-    /// A light lies inside a closed opaque object (a ball, a box, a closed mesh, a solid), and the camera does not: none
-    /// of its light gets out.
+    /// A light lies inside a closed opaque object (a ball, a box, a closed mesh, a solid), and the camera does not:
+    /// none of its light gets out.
     ///
     /// ```text
     /// Scene(

@@ -145,8 +145,8 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
     Loaded { files, file_of_object: geometry_of_object.into_iter().map(of_geometry).collect() }
 }
 
-/// What is told of the materials of several mesh files, as one warning: a model of a hundred files has the same exporter
-/// to thank for all of them.
+/// What is told of the materials of several mesh files, as one warning: a model of a hundred files has one exporter to
+/// thank for all of them.
 fn as_one(of_materials: Diagnostics) -> Option<Diagnostic> {
     const SHOWN: usize = 3;
     let mut all = of_materials.into_iter();

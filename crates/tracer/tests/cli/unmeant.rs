@@ -158,8 +158,8 @@ fn who_is_shut_in_is_told() {
         "Torus(radius: 6, tube_radius: 0.9)",
         "Difference(objects: [Box(size: 30), Box(size: 20)])",
         "Union(objects: [Box(center: (0, 3, 0), size: 0.9), Sphere(center: (0, 3, 0), radius: 0.3)])",
-        "Difference(objects: [Box(center: (0, 1, 6), size: 4, material: Transparent(ior: 1.5)), Sphere(center: (1.5, 1, \
-         6), radius: 0.5)])",
+        "Difference(objects: [Box(center: (0, 1, 6), size: 4, material: Transparent(ior: 1.5)), \
+         Sphere(center: (1.5, 1, 6), radius: 0.5)])",
         "Box(center: (0, 1, 6), size: 2, camera_visible: false)",
         "Box(center: (0, 3, 0), size: 2, camera_visible: false)",
         "Sphere(center: (0, 3, 0), radius: 1, material: Transparent(ior: 1.5))",
