@@ -1,7 +1,7 @@
 //! What the editor asks, and the answers: one function a request.
 
 use crate::diagnostics;
-use crate::documents::{Document, Documents};
+use crate::documents::{Document, Documents, uri_of};
 use crate::kin;
 use lsp_types::request::{
     CodeActionRequest, ColorPresentationRequest, Completion, DocumentColor, DocumentHighlightRequest,
@@ -16,15 +16,24 @@ use lsp_types::{
     PrepareRenameResponse, Range, ReferenceParams, RenameParams, SymbolKind, TextDocumentPositionParams, TextEdit, Uri,
     WorkspaceEdit,
 };
-use scene_format::FileKind;
 use scene_format::analysis::{self, CompletionKind, Symbol};
+use scene_format::diagnostic::Severity;
+use scene_format::{FileKind, LoadError};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::HashMap;
 use std::path::Path;
 
+/// Why a request is not answered.
+pub enum Why {
+    /// It cannot be read.
+    Params(String),
+    /// It cannot be done now.
+    Refused(String),
+}
+
 /// The answer to a request; `None` where nobody knows it.
-pub fn answer(documents: &Documents, method: &str, params: Value) -> Option<Result<Value, String>> {
+pub fn answer(documents: &Documents, method: &str, params: Value) -> Option<Result<Value, Why>> {
     Some(match method {
         Completion::METHOD => asked(params, |params| completion(documents, params)),
         HoverRequest::METHOD => asked(params, |params| hover(documents, params)),
@@ -32,29 +41,33 @@ pub fn answer(documents: &Documents, method: &str, params: Value) -> Option<Resu
         References::METHOD => asked(params, |params| references(documents, params)),
         DocumentHighlightRequest::METHOD => asked(params, |params| highlights(documents, params)),
         PrepareRenameRequest::METHOD => asked(params, |params| prepare_rename(documents, params)),
-        Rename::METHOD => parsed(params).and_then(|params| rename(documents, params)).and_then(value),
+        Rename::METHOD => {
+            parsed(params).and_then(|params| rename(documents, params).map_err(Why::Refused)).and_then(value)
+        }
         DocumentSymbolRequest::METHOD => asked(params, |params| symbols(documents, params)),
         DocumentColor::METHOD => asked(params, |params| colors(documents, params)),
         ColorPresentationRequest::METHOD => asked(params, |params| presentations(documents, params)),
         CodeActionRequest::METHOD => asked(params, |params| actions(documents, params)),
-        Formatting::METHOD => asked(params, |params| formatting(documents, params)),
+        Formatting::METHOD => {
+            parsed(params).and_then(|params| formatting(documents, params).map_err(Why::Refused)).and_then(value)
+        }
         _ => return None,
     })
 }
 
-fn parsed<P: DeserializeOwned>(params: Value) -> Result<P, String> {
-    serde_json::from_value(params).map_err(|error| error.to_string())
+fn parsed<P: DeserializeOwned>(params: Value) -> Result<P, Why> {
+    serde_json::from_value(params).map_err(|error| Why::Params(error.to_string()))
 }
 
-fn value(answer: impl serde::Serialize) -> Result<Value, String> {
-    serde_json::to_value(answer).map_err(|error| error.to_string())
+fn value(answer: impl serde::Serialize) -> Result<Value, Why> {
+    serde_json::to_value(answer).map_err(|error| Why::Params(error.to_string()))
 }
 
 /// An answer that may be nothing, which the protocol writes as null.
 fn asked<P: DeserializeOwned, A: serde::Serialize>(
     params: Value,
     answer: impl FnOnce(P) -> Option<A>,
-) -> Result<Value, String> {
+) -> Result<Value, Why> {
     value(answer(parsed(params)?))
 }
 
@@ -155,6 +168,11 @@ fn hover(documents: &Documents, params: HoverParams) -> Option<Hover> {
 
 fn definition(documents: &Documents, params: GotoDefinitionParams) -> Option<GotoDefinitionResponse> {
     let (document, byte) = at(documents, &params.text_document_position_params)?;
+    if let Some((_, name)) = analysis::file_at(&document.text, document.syntax, byte) {
+        // The beginning of a file that is there.
+        let path = document.path.is_some().then(|| document.folder().join(name)).filter(|path| path.is_file())?;
+        return Some(GotoDefinitionResponse::Scalar(Location { uri: uri_of(&path)?, range: Range::default() }));
+    }
     let found = analysis::definition(&document.text, document.syntax, byte)?;
     let range = document.lines.range(&document.text, found);
     Some(GotoDefinitionResponse::Scalar(Location { uri: document.uri.clone(), range }))
@@ -283,13 +301,24 @@ fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeAc
     Some(actions)
 }
 
-/// Nothing where the scene is wrong: what is wrong is marked already.
-fn formatting(documents: &Documents, params: DocumentFormattingParams) -> Option<Vec<TextEdit>> {
-    let document = documents.scene(&params.text_document.uri)?;
-    let tidy = scene_format::format(&document.name(), &document.text, document.syntax).ok()?;
+/// The first error of a scene in words.
+fn first_of(error: &LoadError) -> String {
+    let LoadError::Invalid { diagnostics, .. } = error else { return error.to_string() };
+    let first = diagnostics.iter().find(|fault| fault.severity == Severity::Error);
+    first.map_or_else(|| error.to_string(), |fault| fault.message.clone())
+}
+
+/// Nothing of what is no scene.
+///
+/// # Errors
+/// The scene is wrong: nobody could say what to write.
+fn formatting(documents: &Documents, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>, String> {
+    let Some(document) = documents.scene(&params.text_document.uri) else { return Ok(None) };
+    let tidy = scene_format::format(&document.name(), &document.text, document.syntax)
+        .map_err(|error| format!("a scene with errors is not laid out: {}", first_of(&error)))?;
     if *tidy == *document.text {
-        return Some(Vec::new());
+        return Ok(Some(Vec::new()));
     }
     let range = document.lines.range(&document.text, 0..document.text.len());
-    Some(vec![TextEdit { range, new_text: tidy }])
+    Ok(Some(vec![TextEdit { range, new_text: tidy }]))
 }

@@ -79,6 +79,23 @@ impl Documents {
     }
 }
 
+/// The `file:` address of a path, without steps up: `None` where it has none.
+pub fn uri_of(path: &Path) -> Option<Uri> {
+    let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let text = path.to_str()?;
+    // On Windows: \\?\C:\folder.
+    let text = if cfg!(windows) { text.trim_start_matches(r"\\?\").replace('\\', "/") } else { text.to_owned() };
+    let mut uri = if text.starts_with('/') { "file://".to_owned() } else { "file:///".to_owned() };
+    for byte in text.bytes() {
+        if byte.is_ascii_alphanumeric() || matches!(byte, b'/' | b'-' | b'_' | b'.' | b'~' | b':') {
+            uri.push(char::from(byte));
+        } else {
+            uri += &format!("%{byte:02X}");
+        }
+    }
+    uri.parse().ok()
+}
+
 /// The path of a `file:` address.
 fn path_of(uri: &Uri) -> Option<PathBuf> {
     let rest = uri.as_str().strip_prefix("file://")?;

@@ -14,6 +14,7 @@ mod kin;
 mod positions;
 mod stdio;
 
+use answers::Why;
 use documents::Documents;
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, Response};
 use lsp_types::notification::{
@@ -146,7 +147,8 @@ fn answer(documents: &Documents, request: Request) -> Response {
     let Request { id, method, params } = request;
     match answers::answer(documents, &method, params) {
         Some(Ok(value)) => Response::new_ok(id, value),
-        Some(Err(why)) => Response::new_err(id, ErrorCode::InvalidParams as i32, why),
+        Some(Err(Why::Params(why))) => Response::new_err(id, ErrorCode::InvalidParams as i32, why),
+        Some(Err(Why::Refused(why))) => Response::new_err(id, ErrorCode::RequestFailed as i32, why),
         None => Response::new_err(id, ErrorCode::MethodNotFound as i32, format!("{method} is not known here")),
     }
 }

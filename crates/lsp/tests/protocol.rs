@@ -231,3 +231,42 @@ fn files_of_other_programs_are_left_alone() {
     assert!(items.as_array().expect("a list").iter().any(|item| item["label"] == "objects"), "{items}");
     editor.close();
 }
+
+/// From the name of a file one goes to the file, and a name shows what it stands for.
+#[test]
+fn files_are_gone_to_and_names_are_shown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("a gem.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a file");
+    std::fs::write(folder.path().join("part.ron"), "Scene(objects: [Box()])").expect("a file");
+    let uri = format!("file://{}/a.ron", folder.path().display());
+    let text = "Scene(background: 1, materials: { \"red\": Diffuse(albedo: (1, 0, 0)) }, objects: [\n\
+                Mesh(file: \"a gem.obj\", material: \"red\"),\n\
+                Include(file: \"part.ron\"),\n\
+                Mesh(file: \"none.obj\"),\n])";
+    let mut editor = Editor::open(&uri, text);
+    let found = editor.at("textDocument/definition", 1, 14);
+    let place = found["uri"].as_str().expect("an address");
+    assert!(place.starts_with("file:///") && place.ends_with("/a%20gem.obj"), "{place}");
+    assert_eq!(found["range"]["start"], json!({ "line": 0, "character": 0 }));
+    let found = editor.at("textDocument/definition", 2, 18);
+    assert!(found["uri"].as_str().expect("an address").ends_with("/part.ron"), "{found}");
+    assert_eq!(editor.at("textDocument/definition", 3, 14), Value::Null);
+    let column = text.lines().nth(1).and_then(|line| line.find("red")).expect("a word") as u32;
+    let shown = editor.at("textDocument/hover", 1, column + 1);
+    assert_eq!(shown["contents"]["value"], "**red**: `Diffuse(albedo: (1, 0, 0))`");
+    editor.close();
+}
+
+/// A scene with errors is not laid out, and the editor is told why.
+#[test]
+fn why_a_scene_is_not_laid_out_is_told() {
+    let mut editor = Editor::open("file:///scenes/a.ron", SCENE);
+    let document = json!({ "uri": editor.uri });
+    let options = json!({ "tabSize": 4, "insertSpaces": true });
+    let response = editor.response("textDocument/formatting", json!({ "textDocument": document, "options": options }));
+    let error = response.error.expect("it is wrong");
+    // The protocol's RequestFailed.
+    assert_eq!(error.code, -32803);
+    assert!(error.message.contains("radus"), "{}", error.message);
+    editor.close();
+}

@@ -31,14 +31,18 @@ pub fn comments(text: &str, syntax: Syntax) -> usize {
 }
 
 /// Writes a scene as everybody's looks: what fits on a line of 100 characters on one line, else one entry a line, with
-/// the person's comments, order and empty lines (one of several). What it gives it leaves as it is. `name` is shown in
-/// diagnostics.
+/// the person's comments, order and empty lines (one of several). What it gives it leaves as it is. Lines end as most
+/// of them did, and a byte order mark stays. `name` is shown in diagnostics.
 ///
 /// # Errors
 /// As [`convert`], but names that nobody has given and values out of range do not count, as they are laid out all the
 /// same.
 pub fn format(name: &str, text: &str, syntax: Syntax) -> Result<String, LoadError> {
-    write(name, text, syntax, syntax, true)
+    let tidy = write(name, text, syntax, syntax, true)?;
+    // Whoever has saved it so has editors that want it so.
+    let mark = if text.starts_with('\u{feff}') { "\u{feff}" } else { "" };
+    let of_windows = 2 * text.matches("\r\n").count() > text.matches('\n').count();
+    Ok(if of_windows { format!("{mark}{}", tidy.replace('\n', "\r\n")) } else { format!("{mark}{tidy}") })
 }
 
 fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -> Result<String, LoadError> {
@@ -60,7 +64,8 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     let mut sink = Sink::default();
     let tree = parse(text, from, &mut sink);
     let Some(root) = tree.root() else { return Ok(String::new()) };
-    let mut converter = Converter { tree: &tree, next_comment: 0, from, to, blanks: keeps_blanks.then_some(0) };
+    let blanks = keeps_blanks.then_some(0);
+    let mut converter = Converter { tree: &tree, next_comment: 0, inside: Vec::new(), from, to, blanks };
     // What stands at the file's top stays there: a headline, a licence, how to render it.
     let before = match from {
         Syntax::Ron | Syntax::Json => converter.comments_before(root.span().start),
@@ -97,6 +102,8 @@ struct Converter<'t, 's> {
     next_comment: usize,
     from: Syntax,
     to: Syntax,
+    /// Comments within numbers that stand on one line: they move up before it.
+    inside: Vec<String>,
     /// Where the last thing ended that has been taken, if empty lines are kept.
     blanks: Option<u32>,
 }
@@ -182,12 +189,14 @@ impl Converter<'_, '_> {
         item: Item<'_, '_>,
         value: impl FnOnce(&mut Self) -> Form,
     ) -> Entry {
-        let before = self.comments_before(start);
+        let mut before = self.comments_before(start);
         let end = item.span().end;
         // The fields of a TOML table follow after its header has ended.
         let header = item.children().next().is_some_and(|child| child.span().start >= end);
         let early = if header { self.comment_after(end) } else { None };
         let value = value(self);
+        let inside = std::mem::take(&mut self.inside);
+        before.extend(inside.into_iter().filter(|line| line != BLANK_LINE));
         self.ended(end);
         // Where its last line ends.
         let last = || item.children().last().map_or(end, |child| child.span().end.max(end));
@@ -307,7 +316,9 @@ impl Converter<'_, '_> {
         Form::Variant { name: PICK.name, content: Some(Box::new(fields)) }
     }
 
-    fn vector(&self, item: Item<'_, '_>) -> Form {
+    fn vector(&mut self, item: Item<'_, '_>) -> Form {
+        let inside = self.comments_before(item.span().end);
+        self.inside.extend(inside);
         Form::Vector(item.children().map(|child| self.value(child)).collect())
     }
 
@@ -317,7 +328,7 @@ impl Converter<'_, '_> {
         let is_number = |x: Item<'_, '_>| x.number().is_some() || is_expression(x);
         let is_point = || matches!(item.children().count(), 2 | 3) && item.children().all(is_number);
         if item.kind() != Kind::List || (self.from != Syntax::Ron && is_point()) {
-            return self.value(item);
+            return if matches!(item.kind(), Kind::List | Kind::Tuple) { self.vector(item) } else { self.value(item) };
         }
         let entries = item
             .children()

@@ -3,6 +3,7 @@
 #![allow(clippy::result_large_err, reason = "an argument is read once, and a wrong one ends the run")]
 
 mod named;
+mod value;
 
 use crate::codes;
 use crate::desc::Scene;
@@ -36,6 +37,11 @@ impl Override {
     /// `--frame N`
     pub fn frame(frame: u32) -> Self {
         Override { argument: format!("animation.frame={frame}"), option: "--frame" }
+    }
+
+    /// One of `--frames A-B`
+    pub fn of_frames(frame: u32) -> Self {
+        Override { option: "--frames", ..Override::frame(frame) }
     }
 }
 
@@ -119,7 +125,7 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
     }
     let steps = steps(&argument[..equals], source)?;
     let mut builder = Builder::new(source);
-    let faults = sink.errors;
+    let (faults, told) = (sink.errors, sink.diagnostics.len());
     if argument[equals + 1..].trim().is_empty() {
         return Err(Diagnostic::error(
             codes::BAD_SET_SYNTAX,
@@ -130,6 +136,7 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
     }
     ron::parse_from(argument, equals + 1, &mut builder, sink);
     if sink.errors > faults {
+        sink.diagnostics.iter_mut().skip(told).for_each(value::of_argument);
         return Ok(());
     }
     if tree.nodes.is_empty() {
@@ -270,9 +277,9 @@ impl Setter {
             (Type::Struct(def), What::Name(name)) => self.find_field(item, def, name, step, rest),
             (Type::Enum(def), What::Name(name)) => self.find_variant(item, def, name, step, steps, rest),
             (Type::OneOf([Type::Text, Type::Struct(_)]), What::Name(name)) if item.kind() == Kind::Text => {
-                let camera = item.lexeme();
+                let camera = item.text();
                 let fault = self.fault(codes::BAD_SET_PATH, step, format!("{noun} is one of `cameras`, by its name"));
-                Err(fault.hint(format!("set the camera of that name: cameras.{}.{name}", shortened(camera))))
+                Err(fault.hint(value::instead("camera", &camera, name)))
             }
             (Type::OneOf(kinds), _) => {
                 let fitting = kinds.iter().find(|kind| fits(item, kind));
@@ -280,7 +287,7 @@ impl Setter {
                     _ if kind.is_texture() && item.kind() == Kind::Text && !item.text().starts_with(['#', '=']) => {
                         let fault =
                             self.fault(codes::BAD_SET_PATH, step, format!("{noun} is one of `textures`, by its name"));
-                        Err(fault.hint(format!("set the texture of that name: textures.{}", shortened(&item.text()))))
+                        Err(fault.hint(value::instead("texture", &item.text(), "")))
                     }
                     Some(&kind) if !matches!(kind, Type::Text | Type::File) => self.find(item, kind, steps, noun),
                     Some(_) => Err(self
@@ -291,7 +298,7 @@ impl Setter {
                         )
                         .hint(match item.kind() {
                             Kind::Text if kinds.iter().any(|kind| matches!(kind, Type::Text)) => {
-                                format!("set the material of that name: materials.{}", shortened(&item.text()))
+                                value::instead("material", &item.text(), "")
                             }
                             _ => "set it as a whole".to_owned(),
                         })),
@@ -303,6 +310,7 @@ impl Setter {
                 let (what, group) = match inner {
                     Type::Value => ("var", "vars"),
                     Type::Struct(_) => ("camera", "cameras"),
+                    Type::Vector => ("mark", "output.marks"),
                     inner if inner.is_texture() => ("texture", "textures"),
                     _ => ("material", "materials"),
                 };
@@ -318,7 +326,8 @@ impl Setter {
                     1..=8 => format!("one of {}", suggest::list(&words)),
                     count => format!("one of the {count} names in `{group}`"),
                 };
-                fault.did_you_mean(suggest::nearest(name, words.iter().copied()), str::to_owned);
+                let near = suggest::nearest(name, words.iter().copied()).map(value::step);
+                fault.did_you_mean(near.as_deref(), str::to_owned);
                 Err(fault)
             }
             (Type::Vector | Type::Pair, _) => self.find_part(item, step, rest, noun),
@@ -435,7 +444,7 @@ impl Setter {
         let (_, cameras) = item.fields().find(|(key, _)| key.text() == "cameras")?;
         let (first, _) = cameras.fields().next()?;
         let fault = self.fault(codes::BAD_SET_PATH, step, "the camera of this scene is one of its `cameras`");
-        Some(fault.hint(format!("set the camera of that name: cameras.{}.{field}", shortened(first.lexeme()))))
+        Some(fault.hint(value::instead("camera", &first.text(), field)))
     }
 
     /// Follows names that the tree does not have yet.

@@ -270,3 +270,48 @@ fn nothing_of_a_wrong_scene_is_lost() {
 fn a_wrong_scene_is_not_touched() {
     assert!(format("s.ron", "Scene(objects: [Sphere(radius: 1)])", Syntax::Ron).is_err());
 }
+
+/// Comments within numbers that stand on one line move up before it; nothing that stands behind goes along.
+#[test]
+fn comments_within_numbers_stay_with_their_field() {
+    let toml = "[[objects]]\n[objects.Sphere]\ncenter = [0, 0, # across\n  0] # after\nradius = 1 # r\n";
+    let tidy = "[[objects]]\n[objects.Sphere]\n# across\ncenter = [0, 0, 0] # after\nradius = 1 # r\n";
+    let text = |objects: &str| format!("background = [0.5, # red\n  0.6, # green\n  0.7] # blue\n\n{objects}");
+    let laid_out = format!("# red\n# green\n\nbackground = [0.5, 0.6, 0.7] # blue\n\n{tidy}");
+    assert_eq!(format("a.toml", &text(toml), Syntax::Toml).expect("it is right"), laid_out);
+    assert_eq!(format("a.toml", &laid_out, Syntax::Toml).expect("it is right"), laid_out);
+    let ron = "\
+Scene(
+    // red
+    // green
+    background: (0.5, 0.6, 0.7), // blue
+    objects: [
+        Sphere(
+            // across
+            center: (0, 0, 0), // after
+            radius: 1, // r
+        ),
+    ],
+)
+";
+    assert_eq!(convert("a.toml", &text(toml), Syntax::Toml, Syntax::Ron).expect("it is right"), ron);
+    let within = "Scene(background: (0.5, /* green */ 0.6, 0.7), objects: [Sphere(center: (0, 0, 0), radius: 1)])";
+    let tidy = "Scene(\n    // green\n    background: (0.5, 0.6, 0.7),\n    \
+                objects: [Sphere(center: (0, 0, 0), radius: 1)],\n)\n";
+    assert_eq!(format("a.ron", within, Syntax::Ron).expect("it is right"), tidy);
+}
+
+/// Lines end as they did, and a byte order mark stays; whoever converts gets neither.
+#[test]
+fn ends_of_lines_stay() {
+    let of_windows = |text: &str| text.replace('\n', "\r\n");
+    let messy = of_windows(MESSY_RON);
+    let tidy = format("s.ron", &messy, Syntax::Ron).expect("it is right");
+    assert_eq!(tidy, of_windows(&format("s.ron", MESSY_RON, Syntax::Ron).expect("it is right")));
+    assert_eq!(format("s.ron", &tidy, Syntax::Ron).expect("it is right"), tidy);
+    let marked = format!("\u{feff}{messy}");
+    assert_eq!(format("s.ron", &marked, Syntax::Ron).expect("it is right"), format!("\u{feff}{tidy}"));
+    let toml = convert("s.ron", &marked, Syntax::Ron, Syntax::Toml).expect("it is right");
+    assert!(!toml.contains(['\r', '\u{feff}']), "{toml:?}");
+    assert_eq!(toml, convert("s.ron", MESSY_RON, Syntax::Ron, Syntax::Toml).expect("it is right"));
+}

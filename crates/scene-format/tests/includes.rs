@@ -283,3 +283,14 @@ fn a_library_with_objects_is_one_mistake() {
     let folder = folder("library_with_objects", &[("library.ron", library), ("s.ron", text)]);
     assert_eq!(codes(load(&folder.join("s.ron"))), ["E0560"]);
 }
+
+/// More files than can be included are so by one fault.
+#[test]
+fn too_many_files_are_told_once() {
+    let names: Vec<String> = (0..300).map(|k| format!("\"none{k}.ron\"")).collect();
+    let text = format!("Scene(include: [{}], background: 1, objects: [Box()])", names.join(", "));
+    let folder = folder("many", &[("many.ron", &text)]);
+    let Err(LoadError::Invalid { diagnostics, .. }) = load(&folder.join("many.ron")) else { panic!("is wrong") };
+    let too_many = diagnostics.iter().filter(|fault| fault.code == "E0606").count();
+    assert_eq!(too_many, 1, "{diagnostics:#?}");
+}

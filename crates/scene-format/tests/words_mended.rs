@@ -225,3 +225,40 @@ fn arithmetic_without_quotes() {
         assert!(told.iter().all(|fault| fault.code.as_str() != "E0607"), "{written}: {told:#?}");
     }
 }
+
+#[test]
+fn calls_and_brackets() {
+    check(
+        &[
+            ("Sphere(center: new THREE.Vector3(0, 1, 6), radius: 1)", "Sphere(center: (0, 1, 6), radius: 1)"),
+            ("Sphere(center: np.array([0, 1, 6]), radius: 1)", "Sphere(center: (0, 1, 6), radius: 1)"),
+            ("new Sphere(center: (0, 0, 0), radius: 1)", "Sphere(center: (0, 0, 0), radius: 1)"),
+            ("Sphere(center: {0, 1, 6}, radius: 1)", "Sphere(center: (0, 1, 6), radius: 1)"),
+            ("Box(size: 1, transform: [Scale(x: 2)])", "Box(size: 1, transform: [Scale(factor: (2, 1, 1))])"),
+            (
+                "Box(size: 1, transform: [Rotate(z: 40)])",
+                "Box(size: 1, transform: [Rotate(axis: (0, 0, 1), degrees: 40)])",
+            ),
+            (
+                "Box(size: 1, transform: [Matrix([1, 0, 0, 7, 0, 1, 0, 8, 0, 0, 1, 9])])",
+                "Box(size: 1, transform: [Matrix(rows: ((1, 0, 0, 7), (0, 1, 0, 8), (0, 0, 1, 9)))])",
+            ),
+            ("Difference(a: Box(size: 2), b: Box(size: 1))", "Difference(objects: [Box(size: 2), Box(size: 1)])"),
+            ("Box(size: 1, material: Emissive(power: \"100 W\"))", "Box(size: 1, material: Emissive(power: 100))"),
+        ],
+        Syntax::Ron,
+    );
+    check(
+        &[
+            (
+                "{ Box = { size = 1, transform = [{ Scale = { x = 2 } }] } }",
+                "{ Box = { size = 1, transform = [{ Scale = { factor = [2, 1, 1] } }] } }",
+            ),
+            (
+                "{ Box = { size = 1, transform = [{ Rotate = { y = 40 } }] } }",
+                "{ Box = { size = 1, transform = [{ Rotate = { axis = [0, 1, 0], degrees = 40 } }] } }",
+            ),
+        ],
+        Syntax::Toml,
+    );
+}

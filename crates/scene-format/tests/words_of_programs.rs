@@ -203,3 +203,63 @@ fn a_name_that_is_misspelt_everywhere_is_told_once() {
     assert_eq!(shown.matches("there is no material").count(), 1, "{shown}");
     assert!(shown.contains("199 more like this, on lines 3, 4, 5"), "{shown}");
 }
+
+/// Calls and brackets of other languages, and words of theirs for transforms and solids.
+#[test]
+fn in_other_languages() {
+    let ball = |center: &str| format!("Sphere(center: {center}, radius: 1)");
+    let moved = |step: &str| format!("Box(size: 1, transform: [{step}])");
+    let cases = [
+        (ball("THREE.Vector3(0, 1, 6)"), "write (0, 1, 6)"),
+        (ball("new THREE.Vector3(0, 1, 6)"), "write (0, 1, 6)"),
+        (ball("glm::vec3(0, 1, -6.5)"), "write (0, 1, -6.5)"),
+        (ball("np.array([0, 1, 6])"), "write (0, 1, 6)"),
+        ("new Sphere(center: (0, 0, 0), radius: 1)".to_owned(), "write Sphere(..)"),
+        (ball("{0, 1, 6}"), "write `(` and `)`"),
+        (ball("(a -b, 0, 0)"), "write \"=a -b\""),
+        (moved("Rotate(x: 30, y: 40)"), "Rotate(axis: (1, 0, 0), degrees: 30), Rotate(axis: (0, 1, 0), degrees: 40)"),
+        (moved("Rotate(y: 40)"), "write Rotate(axis: (0, 1, 0), degrees: 40)"),
+        (moved("Scale(x: 2)"), "write `factor: (2, 1, 1)`"),
+        (moved("Scale(z: 3, x: 2)"), "write `factor: (2, 1, 3)`"),
+        (moved("Matrix([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0])"), "four numbers are a row"),
+        ("Difference(a: Box(size: 1), b: Box(size: 2))".to_owned(), "write `objects: [Box(size: 1), Box(size: 2)]`"),
+        ("Union(left: Box(size: 1), right: Box(size: 2))".to_owned(), "write `objects: [Box(size: 1), Box(size: 2)]`"),
+        ("Box(size: 1, material: Emissive(power: \"100 W\"))".to_owned(), "numbers carry no unit: write 100"),
+        ("Mesh(file: a/b)".to_owned(), "write \"a/b\""),
+    ];
+    let cases: Vec<(&str, &str)> = cases.iter().map(|(written, told)| (written.as_str(), *told)).collect();
+    check(&cases, |object| {
+        // The names of these are given.
+        format!("Scene(vars: {{ \"a\": 1, \"b\": 2 }}, background: \"=a*b\", objects: [{BALL}, {object}])")
+    });
+    // So it is where nobody knows the names.
+    check(&[("(c -d, 0, 0)", "write \"=c -d\"")], |center| {
+        format!("Scene(background: 1, objects: [{BALL}, Sphere(center: {center}, radius: 1)])")
+    });
+    check(&[("\"1.0\"", "write 1")], |version| format!("Scene(version: {version}, background: 1, objects: [{BALL}])"));
+}
+
+/// What is wrong with a value of `--set` is not said of a scene or a file.
+#[test]
+fn values_of_arguments() {
+    let scene = format!(
+        "Scene(background: 1, materials: {{ \"my glass\": Transparent(ior: 1.5) }}, objects: [{BALL}, Box(size: 1, \
+         material: \"my glass\")], output: Output(marks: {{ \"A\": (0, 0, 0) }}))"
+    );
+    let told = |argument: &str| {
+        let found = errors(&scene, &[Override::from(argument)]);
+        assert_eq!(found.len(), 1, "{argument}: {found:#?}");
+        format!("{} {} {}", found[0].message, found[0].expected, found[0].hint)
+    };
+    for (argument, says) in [
+        ("camera.fov=40)", "this bracket closes nothing"),
+        ("camera.fov=40 50", "the value ended before this"),
+        ("camera.position=(0, 1, 6", "write `)` at its end"),
+        ("materials.glass.ior=2", "did you mean `\"my glass\"`?"),
+        ("objects[1].material.ior=2", "'materials.\"my glass\"'"),
+        ("output.marks.B=(0, 0, 0)", "the scene has no mark \"B\""),
+    ] {
+        let told = told(argument);
+        assert!(told.contains(says) && !told.contains("file"), "{argument}: {told}");
+    }
+}

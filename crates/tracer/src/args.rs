@@ -201,6 +201,9 @@ pub struct SceneArgs {
     /// Frame of the scene's `animation`, from 0
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub frame: Option<u32>,
+    /// Whether the frame is one of those that `--frames` asks for.
+    #[arg(skip)]
+    pub is_of_frames: bool,
     /// Syntax of the scene [default: by its extension, else by its looks]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]
     #[arg(help = "Syntax: ron, toml or json [default: by the file's name]")]
@@ -215,12 +218,15 @@ impl SceneArgs {
     /// The scene alone, as it is written.
     pub fn plain(scene: PathBuf) -> Self {
         let diagnostics = DiagnosticsForm::Text;
-        SceneArgs { scene, set: Vec::new(), camera: None, frame: None, syntax: None, diagnostics }
+        SceneArgs { scene, set: Vec::new(), camera: None, frame: None, is_of_frames: false, syntax: None, diagnostics }
     }
 
     /// The fields to set.
     pub fn overrides(&self) -> Vec<Override> {
-        overrides(&self.set, self.camera.as_deref(), self.frame)
+        let mut all = overrides(&self.set, self.camera.as_deref(), None);
+        let of = if self.is_of_frames { Override::of_frames } else { Override::frame };
+        all.extend(self.frame.map(of));
+        all
     }
 
     /// The same as arguments of `--set`.

@@ -32,8 +32,10 @@ pub fn told(args: &SceneArgs, desc: &SceneDesc, range: Option<(u32, u32)>, shell
     if is_dash(&args.scene) {
         return Ok(Told::default());
     }
+    let load =
+        |frame: u32| load(args, if range.is_some() { Override::of_frames(frame) } else { Override::frame(frame) });
     let looking = Looking { first, last, most: MOST, warnings: range.is_none() };
-    let Some(LookedAt { all, looked, wrong, warned }) = check_frames(desc, looking, |frame| load(args, frame)) else {
+    let Some(LookedAt { all, looked, wrong, warned }) = check_frames(desc, looking, load) else {
         return Ok(Told::default());
     };
     for frame in &warned {
@@ -55,9 +57,9 @@ pub fn told(args: &SceneArgs, desc: &SceneDesc, range: Option<(u32, u32)>, shell
     Ok(Told { count: Some(format!("{}{looked_at}", counted(all, "frame"))), warnings })
 }
 
-fn load(args: &SceneArgs, frame: u32) -> Result<Loaded, LoadError> {
+fn load(args: &SceneArgs, frame: Override) -> Result<Loaded, LoadError> {
     let mut overrides = SceneArgs { frame: None, ..args.clone() }.overrides();
-    overrides.push(Override::frame(frame));
+    overrides.push(frame);
     let Some(syntax) = args.syntax.map(Syntax::from) else {
         return scene_format::load_with(&args.scene, &overrides);
     };

@@ -38,13 +38,12 @@ pub fn hover(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
             found = Some(Hover { range: range(span), markdown });
         }
     });
-    found.or_else(|| in_expression(text, syntax, byte))
+    found.or_else(|| of_name(text, syntax, byte))
 }
 
-/// What a word of an expression means, or the name of a var.
-fn in_expression(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
-    if let Some(var) = names::var_at(text, syntax, byte) {
-        let names::Var { name, range, value } = var;
+/// What a name stands for, or what a word of an expression means.
+fn of_name(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
+    if let Some(names::Named { name, range, value }) = names::named_at(text, syntax, byte) {
         let means = value.map_or("counts from 0: the index of a `Repeat`".to_owned(), |value| format!("`{value}`"));
         return Some(Hover { range, markdown: format!("**{name}**: {means}") });
     }

@@ -19,7 +19,7 @@ mod visit;
 pub use colors::{ColorPlace, color_texts, colors};
 pub use complete::{Completion, CompletionKind, Completions, complete};
 pub use hover::{Hover, hover};
-pub use names::{definition, name_at, occurrences, rename};
+pub use names::{definition, file_at, name_at, occurrences, rename};
 pub use symbols::{Symbol, SymbolKind, symbols};
 
 #[cfg(test)]

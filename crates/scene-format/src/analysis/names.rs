@@ -83,33 +83,51 @@ pub fn rename(text: &str, syntax: Syntax, byte: usize, name: &str) -> Result<Vec
     Ok(found.into_iter().map(edit).collect())
 }
 
-/// A var, where it is written or used.
-pub(super) struct Var {
+/// A name, where it is given or used.
+pub(super) struct Named {
     pub name: String,
     pub range: Range<usize>,
     /// What it stands for, as it is written; of an index nothing.
     pub value: Option<String>,
 }
 
-/// So much of a var's value is shown.
+/// So much of what a name stands for is shown.
 const SHOWN: usize = 200;
 
-/// The var whose name stands at a byte.
-pub(super) fn var_at(text: &str, syntax: Syntax, byte: usize) -> Option<Var> {
+/// The name that stands at a byte, and what it stands for.
+pub(super) fn named_at(text: &str, syntax: Syntax, byte: usize) -> Option<Named> {
     let place = places(text, syntax).into_iter().find(|place| holds_byte(&place.range, byte))?;
-    if place.of != Of::Var {
-        return None;
-    }
     let defined = definition(text, syntax, byte)?;
+    // What is long, or has more lines than one, is written anew.
+    let in_short = |lexeme: &str| {
+        let lexeme: String = lexeme.chars().take(SHOWN).collect();
+        lexeme.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
     let mut value = None;
     visit(&tree(text, syntax), &mut |visit| {
         if visit.name.is_some_and(|key| holds_byte(&range(key.span()), defined.start)) {
-            let lexeme: String = visit.item.lexeme().chars().take(SHOWN).collect();
-            value = Some(lexeme.split_whitespace().collect::<Vec<_>>().join(" "));
+            value = Some(in_short(visit.item.lexeme()));
         }
     });
-    // What is long, or has more lines than one, is written anew.
-    Some(Var { name: place.name, range: place.range, value })
+    // A table of TOML is its header: the line tells as much. So does that of an object.
+    let is_header = place.of != Of::Var && value.as_ref().is_none_or(|value| value.starts_with('['));
+    if is_header {
+        let begin = text[..defined.start].rfind('\n').map_or(0, |at| at + 1);
+        value = text[begin..].lines().next().map(in_short);
+    }
+    Some(Named { name: place.name, range: place.range, value })
+}
+
+/// The file that a text at a byte names, as it is written.
+pub fn file_at(text: &str, syntax: Syntax, byte: usize) -> Option<(Range<usize>, String)> {
+    let mut found = None;
+    visit(&tree(text, syntax), &mut |visit| {
+        let range = range(visit.item.span());
+        if matches!(visit.kind, Type::File) && visit.item.kind() == Kind::Text && holds_byte(&range, byte) {
+            found = Some((range, visit.item.text().into_owned()));
+        }
+    });
+    found
 }
 
 /// The word of an expression that stands at a byte.

@@ -244,6 +244,25 @@ fn words_of_expressions_are_explained() {
     }
 }
 
+/// A name shows what it stands for, where it is given and where it is used; the name of a file is one.
+#[test]
+fn names_show_what_they_stand_for() {
+    let shown = |text: &str, syntax: Syntax| {
+        let (text, at) = cursor(text);
+        hover(&text, syntax, at).map(|found| found.markdown)
+    };
+    let text = NAMES.replacen("material: \"red", "material: \"r|ed", 1);
+    assert_eq!(shown(&text, Ron).as_deref(), Some("**red**: `Diffuse(albedo: \"#ff0000\")`"));
+    let toml = "[materials.red.Diffuse]\nalbedo = 0.5\n[[objects]]\nBox = { size = 1, material = \"r|ed\" }\n";
+    assert_eq!(shown(toml, Toml).as_deref(), Some("**red**: `[materials.red.Diffuse]`"));
+    let camera = "Scene(camera: \"si|de\", cameras: { \"side\": Camera(fov: 20) })";
+    assert_eq!(shown(camera, Ron).as_deref(), Some("**side**: `Camera(fov: 20)`"));
+    let (text, at) = cursor("Scene(include: [\"p|art.ron\"], objects: [Mesh(file: \"a.obj\")])");
+    assert_eq!(file_at(&text, Ron, at).expect("a file").1, "part.ron");
+    assert_eq!(file_at(&text, Ron, text.find("obj\"").expect("a file")).expect("a file").1, "a.obj");
+    assert_eq!(file_at(&text, Ron, 2), None);
+}
+
 #[test]
 fn textures_are_found_and_renamed() {
     let text = "Scene(textures: { \"bricks\": Lines(), \"wall\": Mix(a: \"bricks\", b: \"#b3202c\"), \

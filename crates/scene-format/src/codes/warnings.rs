@@ -4,8 +4,8 @@ use super::{Code, Entry};
 
 codes! {
     WARNINGS:
-    /// There is neither a light nor a background: the picture will be black. Add a `SphereLight` to
-    /// `lights`, an object with an `Emissive` material, or a `background`.
+    /// There is neither a light nor a background, or what lights there are shine with nothing: the picture will be
+    /// black. Add a `SphereLight` to `lights`, an object with an `Emissive` material, or a `background`.
     ///
     /// ```ron
     /// Scene(objects: [Sphere(center: (0, 0, 0), radius: 1)])
@@ -30,14 +30,15 @@ codes! {
     /// A closed mesh of glass has its faces wound the other way, so that its inside is outside: light is bent the wrong
     /// way at it. Seen from outside, the corners of a face go round counterclockwise.
     INSIDE_OUT "W0305" "glass that is inside out";
-    /// The camera stands inside an opaque ball, box, cylinder or cone in which there is no light: all that it sees is
-    /// black.
+    /// The camera stands inside a closed opaque object (a ball, a box, a closed mesh, a solid) in which there is no
+    /// light: all that it sees is black.
     ///
     /// ```text
     /// Scene(background: 1, objects: [Sphere(center: (0, 0, 5), radius: 1)])
     /// ```
     CAMERA_SHUT_IN "W0306" "the camera is shut in";
-    /// A light lies inside an opaque ball, box, cylinder or cone, and the camera does not: none of its light gets out.
+    /// A light lies inside a closed opaque object (a ball, a box, a closed mesh, a solid), and the camera does not:
+    /// none of its light gets out.
     ///
     /// ```text
     /// Scene(
@@ -149,6 +150,17 @@ codes! {
     /// objects: [Rectangle(size: 6), Rectangle(size: 2, material: Diffuse(albedo: (0.8, 0.1, 0.1)))]
     /// ```
     HIDDEN_FLAT "W0319" "a flat thing that another one hides";
+    /// A lamp shines with nothing, while others give light: its amount is 0, or its colour black. Give it light, or
+    /// leave it out. What an expression or `--set` says may be nothing: a lamp that is off for once.
+    ///
+    /// ```text
+    /// Scene(
+    ///     background: 1,
+    ///     lights: [SphereLight(center: (0, 5, 0), radius: 1, power: 0)],
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    DARK_LAMP "W0320" "a lamp that gives no light";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

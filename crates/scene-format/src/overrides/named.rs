@@ -1,6 +1,6 @@
 //! Objects and lights by their names: `--set objects.lamp.radius=2`.
 
-use super::{Edited, Setter, Step, What};
+use super::{Edited, Setter, Step, What, value};
 use crate::codes;
 use crate::desc::{ITEMS, Light};
 use crate::diagnostic::Diagnostic;
@@ -160,7 +160,8 @@ impl Setter {
                     1..=SHOWN => fault.expected(format!("one of {}", suggest::list(&names))),
                     count => fault.expected(format!("one of the {count} names in `{group}`, or a number in brackets")),
                 };
-                fault.did_you_mean(suggest::nearest(name, names.iter().copied()), str::to_owned);
+                let near = suggest::nearest(name, names.iter().copied()).map(value::step);
+                fault.did_you_mean(near.as_deref(), str::to_owned);
                 Err(fault)
             }
             [only] => {

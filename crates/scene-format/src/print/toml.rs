@@ -110,8 +110,9 @@ fn fits(entry: &Entry) -> bool {
 /// `name = value`; lists that are long or hold comments take several lines. Tables in braces cannot, so that the
 /// comments in them move up before the line.
 fn line(out: &mut String, entry: &Entry) {
+    let is_first = out.is_empty();
     let at_head =
-        out.is_empty() || out.ends_with("\n\n") || out.lines().next_back().is_some_and(|line| line.starts_with('['));
+        is_first || out.ends_with("\n\n") || out.lines().next_back().is_some_and(|line| line.starts_with('['));
     comments(out, if at_head { after_blank(&entry.before) } else { &entry.before });
     if entry.value == Form::Absent {
         return;
@@ -119,6 +120,10 @@ fn line(out: &mut String, entry: &Entry) {
     let mut inner = Vec::new();
     hoisted(&entry.value, false, &mut inner);
     comments(out, &inner);
+    if is_first && !out.is_empty() {
+        // What stands at the head of a file is read as the file's.
+        out.push('\n');
+    }
     out.push_str(&key(&entry.name));
     out.push_str(" = ");
     match &entry.value {

@@ -89,13 +89,9 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
         let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value);
         let dark = lights.is_none_or(|lights| lights.children().next().is_none());
         let black = root.fields().all(|(key, _)| key.text() != "background") || scene.background.is_black();
-        let shines = |object: &Spanned<Object>| match object.value.material() {
-            MaterialRef::Inline(material) => material.value.shines().is_some(),
-            MaterialRef::Named { .. } | MaterialRef::Default => false,
-        };
         let is_wrong = reader.sink.diagnostics.iter().any(|fault| fault.path.starts_with("background"));
         // What the materials of a mesh's own file are, whoever reads that file says.
-        let may_shine = |object: &Spanned<Object>| shines(object) || object.value.has_materials_of_file();
+        let may_shine = |object: &Spanned<Object>| shines(&object.value) || object.value.has_materials_of_file();
         // Which is of no light.
         let occlusion = matches!(scene.render.integrator, Integrator::AmbientOcclusion { .. });
         let dark = dark && black && !occlusion && !is_wrong && !reader.materials.any_shines();
@@ -126,6 +122,16 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     reader.shapes(&scene);
     let moves = reader.moves(&chosen.camera.shutter);
     Some(Whole { scene, camera: chosen, moves })
+}
+
+/// Whether an object is to shine by a material that it has itself, or one of the shapes that it is made of is: that
+/// these cannot is another fault.
+fn shines(object: &Object) -> bool {
+    let own = match object.material() {
+        MaterialRef::Inline(material) => material.value.shines().is_some(),
+        MaterialRef::Named { .. } | MaterialRef::Default => false,
+    };
+    own || object.operands().is_some_and(|operands| operands.0.iter().any(|operand| shines(&operand.value)))
 }
 
 fn no_objects(span: Span, message: &str, syntax: Syntax) -> Diagnostic {

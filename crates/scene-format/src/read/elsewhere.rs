@@ -69,6 +69,13 @@ pub(super) fn numbers<'s>(item: Item<'_, 's>) -> Option<Vec<&'s str>> {
     numbers.filter(|numbers| !numbers.is_empty())
 }
 
+/// The rows of a matrix of twelve numbers in one list.
+pub(super) fn matrix_rows(item: Item<'_, '_>) -> Option<String> {
+    let numbers = numbers(item).filter(|numbers| numbers.len() == 12)?;
+    let rows: Vec<String> = numbers.chunks(4).map(|row| format!("({})", row.join(", "))).collect();
+    Some(format!("rows: ({})", rows.join(", ")))
+}
+
 /// The values of these fields, all of them numbers and nothing else there.
 fn fields_named<'s, const N: usize>(item: Item<'_, 's>, names: [&str; N]) -> Option<[&'s str; N]> {
     let mut values = [None; N];

@@ -1,6 +1,7 @@
 //! Words of every day and of other programs, for those who ask by themselves what there is.
 
 use super::hints::{field_of_others, kind_elsewhere, other_kind};
+use super::of_kinds::of_another_list;
 use crate::desc::{Camera, Effects, Layer, Light, Material, Object, Scene, Sphere, Transform};
 use crate::schema::{EnumDef, StructDef, Type};
 use crate::syntax::Syntax;
@@ -56,7 +57,9 @@ pub(crate) fn everyday(word: &str) -> Vec<String> {
         }
     }
     for def in &kinds {
-        if let Some(hint) = other_kind(&lower, def) {
+        // That it stands in the wrong place is said of what stands somewhere.
+        let misplaced = of_another_list(&lower, def);
+        if let Some(hint) = other_kind(&lower, def).filter(|hint| Some(*hint) != misplaced) {
             say(hint.to_owned());
         }
     }

@@ -158,6 +158,12 @@ impl Reader<'_> {
                     .expected("a scene that stands alone; `load` reads one with what it includes"),
                 _ => fault(format!("more than {MOST_FILES} files are included"), codes::TOO_MUCH).expected("fewer"),
             };
+            // All that are too many are so by one fault.
+            let known = |other: &Diagnostic| other.code == codes::TOO_MUCH && other.message == fault.message;
+            if self.sink.diagnostics.iter().any(known) {
+                self.sink.errors += 1;
+                return None;
+            }
             self.report(fault);
             return None;
         };

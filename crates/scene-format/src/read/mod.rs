@@ -357,6 +357,14 @@ impl<'r> Reader<'r> {
     fn without_names<T>(&mut self, first: Item<'_, '_>, only: bool, def: &'static StructDef) -> Option<T> {
         let message = format!("the values of {} are written with their names", def.noun);
         let mut fault = Diagnostic::error(codes::MISSING_NAME, first.head(), message).expected(field_list(def));
+        if let Some(rows) = elsewhere::matrix_rows(first).filter(|_| only && def.name == "Matrix") {
+            fault.hint =
+                "four numbers are a row, and there are three: `rows: ((1, 0, 0, x), (0, 1, 0, y), (0, 0, 1, z))`"
+                    .to_owned();
+            fault.edit = Some(Edit { span: first.span(), replacement: rows });
+            self.report(fault);
+            return None;
+        }
         let field = def.fields.first();
         // `Uv(8)`: what fits the first field is most probably that.
         let fits = only && field.is_some_and(|field| schema::fits(first, &field.kind));

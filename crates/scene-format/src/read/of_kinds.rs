@@ -290,7 +290,7 @@ pub(super) fn elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static st
 }
 
 /// What is said of a material or a shape in the wrong place.
-fn of_another_list(name: &str, def: &'static EnumDef) -> Option<&'static str> {
+pub(super) fn of_another_list(name: &str, def: &'static EnumDef) -> Option<&'static str> {
     let is_of = |other: &'static EnumDef| {
         other.variants.iter().any(|variant| variant.name.eq_ignore_ascii_case(name))
             || kind_elsewhere(name, other).is_some()

@@ -33,6 +33,11 @@ const UV_SCALE: [&str; 2] = ["mapping: Uv(scale: (u, v))", "mapping = { Uv = { s
 
 const SIDES: [&[&str]; 3] = [&["width", "w"], &["height", "h"], &["depth", "length", "d"]];
 
+const OPERANDS: &[&[&str]] = &[
+    &["a", "left", "base", "first", "minuend", "shape1", "object1", "lhs"],
+    &["b", "right", "tool", "second", "subtrahend", "shape2", "object2", "rhs"],
+];
+
 const ROWS: &[Row] = &[
     (
         "Box",
@@ -60,6 +65,9 @@ const ROWS: &[Row] = &[
     ("Lines", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
     ("Dots", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
     ("Texture", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
+    ("Difference", OPERANDS, &["objects"], ["objects: [a, b]", "objects = [a, b]"], objects),
+    ("Union", OPERANDS, &["objects"], ["objects: [a, b]", "objects = [a, b]"], objects),
+    ("Intersection", OPERANDS, &["objects"], ["objects: [a, b]", "objects = [a, b]"], objects),
     // Where the outer edge of the ring is, or its middle: nobody knows.
     (
         "Torus",
@@ -72,7 +80,61 @@ const ROWS: &[Row] = &[
 
 /// What is said of a field that is one of several; `None` where the others are not there.
 pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
-    ROWS.iter().find_map(|row| of_row(unknown, row))
+    ROWS.iter().find_map(|row| of_row(unknown, row)).or_else(|| by_axes(unknown))
+}
+
+/// Degrees or factors by their axes: `Rotate(x: 30, y: 40)`, `Scale(x: 2)`. One turn goes about one axis.
+fn by_axes(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    const AXES: [&str; 3] = ["x", "y", "z"];
+    let Unknown { name, item, def, .. } = unknown;
+    let fields = match def.name {
+        "Rotate" => vec!["axis", "degrees"],
+        "Scale" => vec!["factor"],
+        _ => return None,
+    };
+    if !AXES.contains(name) || item.fields().any(|(key, _)| fields.contains(&&*key.text())) {
+        return None;
+    }
+    let find = |axis: &str| item.fields().find(|(key, _)| key.text() == axis);
+    let found: Vec<(Item<'_, '_>, Item<'_, '_>)> = AXES.iter().filter_map(|axis| find(axis)).collect();
+    if found.iter().any(|(key, _)| key.span().start < unknown.key.span().start) {
+        return Some(Together { hint: None, edit: None, fields });
+    }
+    let syntax = item.syntax();
+    let said = |axis: &str| find(axis).map(|(_, value)| value).filter(|value| value.number().is_some());
+    let write = |field: &str, value: &str| format!("{}{value}", Fields(syntax).name(field));
+    let unit = |axis: &str| {
+        let numbers: Vec<String> = AXES.iter().map(|other| u8::from(*other == axis).to_string()).collect();
+        bracketed(&numbers, syntax)
+    };
+    let turns: Vec<String> = AXES
+        .iter()
+        .filter_map(|axis| {
+            let (axis_of, degrees) = (write("axis", &unit(axis)), write("degrees", said(axis)?.lexeme()));
+            Some(format!("{axis_of}, {degrees}"))
+        })
+        .collect();
+    let (hint, mended) = match (def.name, turns.as_slice()) {
+        ("Rotate", [only]) => (format!("write `{only}`"), Some(only.clone())),
+        ("Rotate", []) => (format!("write `{}, {}`", write("axis", &unit("x")), write("degrees", "30")), None),
+        ("Rotate", turns) => {
+            let all = if syntax == Syntax::Ron {
+                turns.iter().map(|turn| format!("Rotate({turn})")).collect::<Vec<String>>().join(", ")
+            } else {
+                let turn = |turn: &String| format!("{{ Rotate = {{ {turn} }} }}");
+                syntax.of_toml(turns.iter().map(turn).collect::<Vec<String>>().join(", ")).into_owned()
+            };
+            (format!("turn about one axis after the other: {all}"), None)
+        }
+        _ => {
+            let factor = |axis: &&str| said(axis).map_or("1".to_owned(), |value| value.lexeme().to_owned());
+            let mended = write("factor", &bracketed(&AXES.iter().map(factor).collect::<Vec<String>>(), syntax));
+            (format!("write `{mended}`"), Some(mended))
+        }
+    };
+    // In the order in which they are written.
+    let edit = mended.and_then(|replacement| Some(Edit { span: all_of(&found, *item)?, replacement }));
+    Some(Together { hint: Some(hint), edit, fields })
 }
 
 fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, [ron, toml], turned): &Row) -> Option<Together> {
@@ -137,6 +199,12 @@ fn size(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
     let sides: Vec<String> =
         values.iter().map(|value| value.number().map(|_| value.lexeme().to_owned())).collect::<Option<_>>()?;
     Some(format!("{}{}", Fields(syntax).name("size"), bracketed(&sides, syntax)))
+}
+
+/// What solids are made of.
+fn objects(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let all: Vec<&str> = values.iter().map(|value| value.lexeme()).collect();
+    Some(format!("{}[{}]", Fields(syntax).name("objects"), all.join(", ")))
 }
 
 /// Two colours, whatever they are.

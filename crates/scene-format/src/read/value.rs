@@ -124,6 +124,15 @@ fn with_unit(words: String, at: &FieldDef) -> String {
     if at.rule.unit.is_empty() { words } else { format!("{words}, {}", at.rule.unit) }
 }
 
+/// The number of a text that is one with a short word after it: `100 W`.
+fn before_unit(text: &str) -> Option<&str> {
+    let text = text.trim();
+    let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | '_' | ' '));
+    let number = text[..text.len() - unit.len()].trim_end();
+    let short = (1..=12).contains(&unit.len()) && unit.starts_with(|c: char| c.is_ascii_alphabetic());
+    (short && decode::number(number).is_finite()).then_some(number)
+}
+
 impl Reader<'_> {
     /// `null`, as JSON has it, for a field that cannot be `None`.
     pub(super) fn null<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
@@ -492,6 +501,9 @@ impl Reader<'_> {
         } else if decode::number(&text).is_finite() {
             fault.hint = "write the number without quotes".to_owned();
             fault.edit = Some(Edit { span: item.span(), replacement: text.into_owned() });
+        } else if let Some(number) = before_unit(&text) {
+            fault.hint = format!("numbers carry no unit: write {number}");
+            fault.edit = Some(Edit { span: item.span(), replacement: number.to_owned() });
         } else if hex && text.starts_with('#') {
             fault.hint = format!("this has {} digits; it needs two for each of red, green and blue", digits.len());
         } else if is_picture(&text) && expected_for(at, item).contains("Texture") {

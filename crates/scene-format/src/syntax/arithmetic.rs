@@ -53,7 +53,12 @@ pub(super) fn ahead(text: &str, start: usize) -> Option<usize> {
         return (depth == 0 && choice(body).is_some()).then_some(body.len());
     }
     // `a/b` and `my-file` are rather texts, unless they are made of names that the scene gives.
-    let sure = |body: &str| body.contains(['*', '^', '%']) || body.contains(" + ") || body.contains(" - ");
+    // `a -b` has a sign before a name: no text has.
+    let signed = |body: &str| {
+        body.match_indices(" -").any(|(at, _)| body[at + 2..].starts_with(|c: char| c.is_ascii_alphabetic()))
+    };
+    let sure =
+        |body: &str| body.contains(['*', '^', '%']) || body.contains(" + ") || body.contains(" - ") || signed(body);
     if led && !sure(body) && !names_are_given(text, body) {
         return None;
     }

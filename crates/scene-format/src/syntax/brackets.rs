@@ -127,6 +127,9 @@ pub(super) fn wrong_kind(text: &str, source: u16, open: Open, name: &str, at: us
     let (begin, end) = (char::from(open.bracket), char::from(closer_of(open.bracket)));
     let found = span(source, open.at, open.at + 1);
     let (message, expected) = match open.bracket {
+        b'(' if name.is_empty() => {
+            ("the numbers of a vector stand in round brackets".to_owned(), "(x, y, z)".to_owned())
+        }
         b'(' => (format!("the fields of `{name}` stand in round brackets"), format!("{name}(..)")),
         b'[' => ("the items of a list stand in square brackets".to_owned(), "[a, b, c]".to_owned()),
         _ => ("names with their values stand in braces".to_owned(), "{ \"name\": value }".to_owned()),

@@ -11,6 +11,7 @@ mod json;
 mod json_literal;
 mod json_scan;
 pub(crate) mod ron;
+mod ron_calls;
 mod ron_extensions;
 mod ron_literal;
 mod ron_names;

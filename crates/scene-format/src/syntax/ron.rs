@@ -167,6 +167,9 @@ impl<'p> Parser<'p> {
                 // Words are followed by a bracket or a comma nearly always: nothing else is asked of those.
                 let after = &self.text[start + length..];
                 let plain = matches!(after.as_bytes().first(), Some(b'(' | b',' | b')' | b']' | b'\n'));
+                if !plain && self.call_elsewhere(start) {
+                    return;
+                }
                 let reckoned = !plain && arithmetic::reckons(after);
                 if (expression::is_known(word) || reckoned) && self.arithmetic(start) {
                     return;

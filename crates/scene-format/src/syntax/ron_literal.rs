@@ -88,12 +88,22 @@ impl Parser<'_> {
 
     /// Arithmetic without quotes that begins here, which is reported.
     pub(super) fn arithmetic(&mut self, start: usize) -> bool {
-        let Some(length) = arithmetic::ahead(self.text, start) else { return false };
+        let Some(length) = arithmetic::ahead(self.text, start).filter(|_| !self.is_of_text(start)) else {
+            return false;
+        };
         self.at = start + length;
         let fault = arithmetic::fault(self.text, &self.text[start..self.at], self.span(start, self.at));
         self.sink.push(fault);
         self.builder.leaf(Kind::Broken, start, self.at);
         true
+    }
+
+    /// Whether what begins at `start` is the value of a field that takes a text, by its name: `file: a/b`.
+    fn is_of_text(&self, start: usize) -> bool {
+        let before = self.text[..start].trim_end().strip_suffix(':').unwrap_or_default().trim_end();
+        ["file", "placements", "material", "part", "name"].iter().any(|field| {
+            before.strip_suffix(field).is_some_and(|rest| !rest.ends_with(|c: char| c.is_alphanumeric() || c == '_'))
+        })
     }
 
     /// `<0, 1, 6>` and `rgb<0.8, 0.2, 0.1>`, the name beginning at `start`, which is reported.

@@ -1,6 +1,7 @@
 //! Characters of RON: white space, comments, words, what stands ahead, and the ways past what cannot be read.
 
 use super::ron::Parser;
+use super::ron_literal::number_kind;
 use super::{arithmetic, constructs, span};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
@@ -325,6 +326,12 @@ impl Parser<'_> {
                 // What has a name has it before a colon.
                 let item = word.starts_with('(') || word.trim_start().starts_with([',', '}']);
                 if item { b'[' } else { written }
+            }
+            b'{' if inner().starts_with(|c: char| c.is_ascii_digit() || c == '-') => {
+                // `{0, 1, 6}`, as vectors are written in C.
+                let numbers = super::line_ahead(inner(), 0).split_once('}').map_or("", |(numbers, _)| numbers);
+                let is_vector = numbers.split(',').all(|number| number_kind(number.trim()).is_some());
+                if is_vector { b'(' } else { written }
             }
             b'[' if inner().starts_with('"') => {
                 let ahead = super::line_ahead(inner(), 1);

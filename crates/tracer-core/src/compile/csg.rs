@@ -4,6 +4,7 @@
 //! meet them at the same places to the last bit, and where faces coincide nothing is between them.
 
 use super::assets::Sources;
+use super::bodies::{Convex, Extent, Side};
 use super::curved::{Written, written};
 use super::materials::MaterialBuilder;
 use super::placing::{Subject, place_all};
@@ -366,7 +367,43 @@ fn radii(surface: &Surface) -> Option<[f64; 2]> {
     if let Surface::Side { radii } = surface { Some(*radii) } else { None }
 }
 
+/// Where a thing lies of a node under a map.
+fn side(node: &Node, operands: &[OperandWritten], map: &DAffine3, extent: &Extent) -> Side {
+    match node {
+        Node::Operand(k) => {
+            let operand = &operands[*k];
+            let body = Convex::of(&operand.unit, &(*map * operand.moved * operand.local));
+            body.map_or(Side::Unknown, |body| body.side(extent))
+        }
+        Node::Made(operation, nodes) => {
+            let sides = nodes.iter().map(|node| side(node, operands, map, extent));
+            let whole = match operation {
+                Operation::Union => sides.reduce(Side::or),
+                Operation::Intersection => sides.map(Side::not).reduce(Side::or).map(Side::not),
+                // What is in none of the others, and in the first: not (not a or b).
+                Operation::Difference => sides.reduce(|a, b| a.not().or(b).not()),
+            };
+            whole.unwrap_or(Side::Unknown)
+        }
+    }
+}
+
 impl SolidObject {
+    /// Its place among the objects of the scene.
+    pub fn number(&self) -> u32 {
+        self.number
+    }
+
+    /// From where it is written to the world, one per copy.
+    pub fn maps(&self) -> &[DAffine3] {
+        &self.maps
+    }
+
+    /// Where a thing lies of a copy.
+    pub fn side(&self, map: &DAffine3, extent: &Extent) -> Side {
+        side(&self.node, &self.operands, map, extent)
+    }
+
     /// One point per copy near what the camera looks at, in its box; of many copies of every so many, 1024 at most.
     pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
         let every = self.maps.len().div_ceil(1024).max(1);

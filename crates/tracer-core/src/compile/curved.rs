@@ -183,11 +183,6 @@ impl Curved {
         ball.then(|| (map.translation, if upright { m.x_axis.x } else { m.x_axis.length() }))
     }
 
-    /// Centre and radius of an object that is one sphere, written where it is.
-    pub fn plain_ball(&self) -> Option<(DVec3, f64)> {
-        self.maps.first().filter(|_| self.local.is_none()).and_then(|map| self.ball(map))
-    }
-
     /// One point per copy near what the camera looks at, on its surface or in its box; of many copies of every so many,
     /// 1024 at most.
     pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {

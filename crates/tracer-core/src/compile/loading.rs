@@ -88,11 +88,18 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
     let results: Vec<_> = paths.par_iter().zip(&wanted).map(read).collect();
     let mut files = Vec::new();
     let mut file_of_path = Vec::new();
+    let mut of_materials = Diagnostics::new();
     for ((result, (_, span, part)), own) in results.into_iter().zip(&paths).zip(own_materials) {
         match result {
             Ok(data) => {
-                let told = data.warnings.iter().filter(|w| own || w.code != codes::MTL_UNSUPPORTED);
-                diagnostics.extend(told.map(|w| Diagnostic { span: *span, ..w.clone() }));
+                for warning in &data.warnings {
+                    let told = Diagnostic { span: *span, ..warning.clone() };
+                    if warning.code != codes::MTL_UNSUPPORTED {
+                        diagnostics.push(told);
+                    } else if own {
+                        of_materials.push(told);
+                    }
+                }
                 file_of_path.push(Some(files.len()));
                 files.push(data);
             }
@@ -103,6 +110,7 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
             }
         }
     }
+    diagnostics.extend(as_one(of_materials));
     let made: Vec<_> = made.par_iter().map(|(shape, span)| shape.mesh(*span)).collect();
     let fields = height_fields(desc, sources, &fields, diagnostics);
     let mut written = |results: Vec<Result<MeshData, Box<Diagnostic>>>| -> Vec<Option<usize>> {
@@ -135,6 +143,21 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
         Geometry::Unit(shape) => shapes.iter().position(|&s| s == shape).map(|k| first_shape + k),
     };
     Loaded { files, file_of_object: geometry_of_object.into_iter().map(of_geometry).collect() }
+}
+
+/// What is told of the materials of several mesh files, as one warning: a model of a hundred files has one exporter to
+/// thank for all of them.
+fn as_one(of_materials: Diagnostics) -> Option<Diagnostic> {
+    const SHOWN: usize = 3;
+    let mut all = of_materials.into_iter();
+    let mut first = all.next()?;
+    let others: Diagnostics = all.collect();
+    match others.len() {
+        0 => {}
+        1 => first.message += "; the same goes for 1 more mesh file",
+        more => first.message += &format!("; the same goes for {more} more mesh files"),
+    }
+    Some(others.iter().take(SHOWN).fold(first, |first, other| first.label(other.span, "of this one, too")))
 }
 
 /// The triangles of height fields. A picture that several of them have is read once, and told of where the first is.

@@ -147,9 +147,9 @@ impl Placed {
         self.maps.get(object).map_or(&[], Vec::as_slice)
     }
 
-    /// The middle of its box, in the frame of its triangles.
-    pub fn middle_of(&self, object: usize) -> DVec3 {
-        self.boxes.get(object).map_or(DVec3::ZERO, |[low, high]| 0.5 * (*low + *high))
+    /// The corners of its box, in the frame of its triangles.
+    pub fn box_of(&self, object: usize) -> [DVec3; 2] {
+        self.boxes.get(object).copied().unwrap_or_default()
     }
 
     /// A point of the box of each copy, the nearest to `look_at`; of many copies every so many, 1024 at most per

@@ -2,9 +2,11 @@
 //! The second hand.
 
 mod assets;
+mod bodies;
 mod camera;
 mod csg;
 mod curved;
+mod dark_lamps;
 mod energy;
 mod environment;
 mod files;
@@ -26,6 +28,7 @@ mod placing;
 mod polygonal;
 mod programs;
 mod radiances;
+mod shut_in;
 mod stored;
 mod textures;
 mod trees;
@@ -189,10 +192,11 @@ fn with_ways(mut diagnostics: Diagnostics, sources: &[Source]) -> Diagnostics {
 
 /// Warns of what is surely not meant, as far as it is seen without a frame; of shapes in one place one is left.
 fn warn(desc: &SceneDesc, gathered: &mut Gathered<'_>) {
-    let Gathered { loaded, assigned, curved, finished, background, placed, diagnostics, .. } = gathered;
+    let Gathered { loaded, assigned, curved, solid_objects, finished, background, placed, diagnostics, .. } = gathered;
     in_one_place::leave_out(desc, curved, &finished.materials, diagnostics);
     unmeant::warn(desc, loaded, placed, curved, diagnostics);
-    unmeant::no_light(desc, assigned, diagnostics);
+    shut_in::warn(desc, &shut_in::Made { loaded, placed, curved, solids: solid_objects }, diagnostics);
+    dark_lamps::warn(desc, assigned, diagnostics);
     hidden_flat::warn(desc, placed, diagnostics);
     curved::warn_of_open_glass(desc, diagnostics);
     other_scale::warn(desc, background.brightest(), diagnostics);

@@ -1,23 +1,21 @@
 //! Scenes that compile and are surely not meant: a picture on a mesh that has no place for it, glass that is inside
-//! out, a camera or a lamp shut in an opaque object.
+//! out, light that is turned away.
 
+use super::bodies::is_closed;
 use super::curved::Curved;
-use super::meshes::{Assigned, Loaded, Placed};
+use super::meshes::{Loaded, Placed};
 use super::polygonal::{Geometry, UnitShape, polygonal};
 use glam::{DAffine3, DVec3};
-use scene_format::desc::{Albedo, Integrator, Light, Material, MaterialRef, Object};
-use scene_format::diagnostic::{Span, Spanned};
+use scene_format::desc::{Albedo, Material, MaterialRef};
+use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::BTreeMap;
 use tracer_kernels::scene::{Camera, Frame, Projection};
 use tracer_kernels::shapes;
 use tracer_mesh::MeshData;
 
-/// More copies of an object than this are not looked at: millions of them must not take their time twice.
-const MOST_COPIES: usize = 10_000;
-
-/// More pairs of a solid and a lamp than this neither.
-const MOST_PAIRS: usize = 10_000_000;
+/// More pairs of a lamp and another object than this are not looked at.
+const MOST_PAIRS: usize = 1_000_000;
 
 /// Marks are of that many copies only.
 const MOST_MARKED: usize = 1024;
@@ -63,7 +61,6 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
             );
         }
     }
-    shut_in(desc, placed, curved, &materials, diagnostics);
     turned_away(desc, placed, curved, &materials, diagnostics);
     disks_turned_away(desc, placed, curved, diagnostics);
 }
@@ -111,7 +108,7 @@ fn turned_away(
         DVec3::new(-0.5, 0.5, 0.0),
     ];
     let polygonal_count = polygonal(desc).count();
-    let mut left = MOST_PAIRS / 10;
+    let mut left = MOST_PAIRS;
     let eye = DVec3::from(desc.camera.position.value);
     for (k, object) in polygonal(desc).enumerate() {
         let emissive = material_of(materials, object.material).and_then(Material::shines);
@@ -159,7 +156,7 @@ fn disks_turned_away(desc: &SceneDesc, placed: &Placed, curved: &[Curved], diagn
     let polygonal_count = polygonal(desc).count();
     let is_few = (0..polygonal_count).all(|k| placed.maps_of(k).len() <= MOST_MARKED)
         && curved.iter().all(|object| object.maps.len() <= MOST_MARKED);
-    let mut left = MOST_PAIRS / 10;
+    let mut left = MOST_PAIRS;
     let eye = DVec3::from(desc.camera.position.value);
     for (k, object) in curved.iter().enumerate() {
         let is_lamp = object.emissive.as_ref().is_some_and(|emissive| !emissive.two_sided);
@@ -192,31 +189,14 @@ fn disks_turned_away(desc: &SceneDesc, placed: &Placed, curved: &[Curved], diagn
 }
 
 /// The material that an object names or has; `None` for the default and those of its file.
-fn material_of<'d>(materials: &BTreeMap<&str, &'d Material>, reference: &'d MaterialRef) -> Option<&'d Material> {
+pub(super) fn material_of<'d>(
+    materials: &BTreeMap<&str, &'d Material>,
+    reference: &'d MaterialRef,
+) -> Option<&'d Material> {
     match reference {
         MaterialRef::Default => None,
         MaterialRef::Named { name, .. } => materials.get(&**name).copied(),
         MaterialRef::Inline(material) => Some(&material.value),
-    }
-}
-
-/// Warns where there is no light, as far as only the files of meshes could tell: the reader has told of all others.
-pub fn no_light(desc: &SceneDesc, assigned: &Assigned, diagnostics: &mut Diagnostics) {
-    let of_files = desc.objects.iter().any(|object| object.value.has_materials_of_file());
-    let dark = desc.lights.is_empty() && desc.background.is_black() && !assigned.shines_by_file();
-    let inline = |object: &Spanned<Object>| match object.value.material() {
-        MaterialRef::Inline(material) => material.value.shines().is_some(),
-        MaterialRef::Named { .. } | MaterialRef::Default => false,
-    };
-    let shines = desc.materials.iter().any(|named| named.material.shines().is_some())
-        || matches!(desc.render.integrator, Integrator::AmbientOcclusion { .. });
-    if of_files && dark && !shines && !desc.objects.iter().any(inline) {
-        let message = "the scene has no light, so the picture will be black";
-        diagnostics.push(
-            Diagnostic::warning(codes::BLACK_PICTURE, Span::NONE, message)
-                .expected("a light, a `background`, or an object that shines")
-                .hint("add a `SphereLight` to `lights`, or a `background`"),
-        );
     }
 }
 
@@ -241,152 +221,4 @@ fn is_inside_out(data: &MeshData) -> bool {
     let of_one = |&[a, b, c]: &[u32; 3]| (corner(a) - about).dot((corner(b) - about).cross(corner(c) - about));
     let volume: f64 = data.triangles.iter().map(of_one).sum();
     volume < 0.0 && is_closed(data)
-}
-
-/// Whether each edge is between two triangles that go along it in opposite ways; corners at one place are one.
-fn is_closed(data: &MeshData) -> bool {
-    let mut places: BTreeMap<[u64; 3], u32> = BTreeMap::new();
-    let welded: Vec<u32> = data
-        .positions
-        .iter()
-        .enumerate()
-        // -0 and 0 are one place.
-        .map(|(k, p)| *places.entry(p.map(|x| (x + 0.0).to_bits())).or_insert(k as u32))
-        .collect();
-    let mut edges: BTreeMap<[u32; 2], i32> = BTreeMap::new();
-    for &[a, b, c] in &data.triangles {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            let (Some(&from), Some(&to)) = (welded.get(from as usize), welded.get(to as usize)) else { return false };
-            let way = if from < to { 1 } else { -1 };
-            if from != to {
-                *edges.entry([from.min(to), from.max(to)]).or_insert(0) += way;
-            }
-        }
-    }
-    edges.values().all(|ways| *ways == 0)
-}
-
-/// An opaque solid that one can be in.
-enum Solid {
-    Ball {
-        center: DVec3,
-        radius: f64,
-    },
-    /// From the world to the cube of a size of one about the origin.
-    Cube(DAffine3),
-    /// From the world to the closed cone about the z axis from -1 to 1, with these radii at its ends.
-    Cone(DAffine3, [f64; 2]),
-}
-
-/// The ball's largest reach in units of the cone along normals of its side; between so many of them it is no more by
-/// half a percent.
-fn reach_across(to_unit: &DAffine3, slope: f64) -> f64 {
-    const NORMALS: u32 = 64;
-    let reach = |k: u32| {
-        let (sin, cos) = libm::sincos(f64::from(k) * std::f64::consts::TAU / f64::from(NORMALS));
-        (to_unit.matrix3.transpose() * DVec3::new(cos, sin, -slope)).length()
-    };
-    1.005 * (0..NORMALS).map(reach).fold(0.0, f64::max)
-}
-
-impl Solid {
-    /// Whether a ball lies in it as a whole.
-    fn holds(&self, point: DVec3, radius: f64) -> bool {
-        match self {
-            Solid::Ball { center, radius: of_solid } => point.distance(*center) + radius < *of_solid,
-            Solid::Cone(to_unit, [first, last]) => {
-                let p = to_unit.transform_point3(point);
-                let slope = 0.5 * (last - first);
-                // R(z) - |(x, y)| is what is left to the side, along its normal (x, y, -slope).
-                let side = 0.5 * (first + last) + slope * p.z - p.truncate().length();
-                1.0 - p.z.abs() > radius * to_unit.matrix3.row(2).length()
-                    && side > if radius > 0.0 { radius * reach_across(to_unit, slope) } else { 0.0 }
-            }
-            Solid::Cube(to_unit) => {
-                let p = to_unit.transform_point3(point);
-                // The distance of a side is what is left to it in units over the length of its row.
-                (0..3).all(|axis| (0.5 - p[axis].abs()) > radius * to_unit.matrix3.row(axis).length())
-            }
-        }
-    }
-}
-
-/// The camera or lamps within opaque balls, boxes, cylinders and cones. One that holds the camera and a lamp is a room.
-fn shut_in(
-    desc: &SceneDesc,
-    placed: &Placed,
-    curved: &[Curved],
-    materials: &BTreeMap<&str, &Material>,
-    diagnostics: &mut Diagnostics,
-) {
-    let mut solids: Vec<(Solid, usize)> = Vec::new();
-    let mut lamps: Vec<(DVec3, f64, Span, String)> = Vec::new();
-    let mut flat = polygonal(desc).enumerate().peekable();
-    let mut curved = curved.iter().peekable();
-    for (index, object) in desc.objects.iter().enumerate() {
-        let material = material_of(materials, object.value.material());
-        let shines = material.is_some_and(|material| material.shines().is_some());
-        let opaque = !shines && !material.is_some_and(Material::transmits);
-        if let Some(curved) = curved.next_if(|curved| curved.number == index as u32) {
-            if let shapes::UnitShape::Cone { radii, caps: true, .. } = curved.unit
-                && opaque
-            {
-                let maps = curved.maps.iter().take(MOST_COPIES);
-                solids.extend(maps.map(|map| (Solid::Cone(map.inverse(), radii), index)));
-            }
-            let Some((center, radius)) = curved.plain_ball() else { continue };
-            if shines {
-                lamps.push((center, radius, object.span, format!("objects[{index}], which shines,")));
-            } else if opaque {
-                solids.push((Solid::Ball { center, radius }, index));
-            }
-            continue;
-        }
-        let Some((k, polygonal)) = flat.next_if(|(_, flat)| flat.number == index as u32) else { continue };
-        let maps = placed.maps_of(k).iter().take(MOST_COPIES);
-        if shines {
-            // Where the middle of it is tells enough of where it is.
-            let middle = placed.middle_of(k);
-            let lamp = |map: &DAffine3| {
-                (map.transform_point3(middle), 0.0, object.span, format!("objects[{index}], which shines,"))
-            };
-            lamps.extend(maps.map(lamp));
-        } else if opaque && matches!(polygonal.geometry, Geometry::Unit(UnitShape::Cube)) {
-            solids.extend(maps.map(|map| (Solid::Cube(map.inverse()), index)));
-        }
-    }
-    for (index, light) in desc.lights.iter().enumerate() {
-        let Light::SphereLight(sphere) = &light.value;
-        lamps.push((DVec3::from(sphere.center.value), sphere.radius.value, light.span, format!("lights[{index}]")));
-    }
-    let eye = DVec3::from(desc.camera.position.value);
-    let few = solids.len().saturating_mul(lamps.len()) <= MOST_PAIRS;
-    for (solid, index) in &solids {
-        let camera = solid.holds(eye, 0.0) && desc.objects[*index].value.camera_visible();
-        let of_object = desc.objects[*index].span;
-        if camera && !lamps.iter().any(|(center, ..)| solid.holds(*center, 0.0)) {
-            diagnostics.push(
-                Diagnostic::warning(
-                    codes::CAMERA_SHUT_IN,
-                    desc.camera.position.span,
-                    format!("the camera stands inside objects[{index}], where there is no light"),
-                )
-                .hint("move the camera out of it, or make the object smaller")
-                .label(of_object, "this object is not seen through"),
-            );
-        }
-        for (center, radius, span, name) in lamps.iter().filter(|_| few && !camera) {
-            if solid.holds(*center, *radius) {
-                diagnostics.push(
-                    Diagnostic::warning(
-                        codes::LIGHT_SHUT_IN,
-                        *span,
-                        format!("{name} is shut in by objects[{index}]: its light gets nowhere"),
-                    )
-                    .hint("move it out, or make the object of Transparent(ior: 1.5)")
-                    .label(of_object, "this object is not seen through"),
-                );
-            }
-        }
-    }
 }

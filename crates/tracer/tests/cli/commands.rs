@@ -272,6 +272,9 @@ fn codes_are_explained() {
     assert!(both.starts_with("E0301: ") && both.contains("\nW0301: "), "{both}");
     let word = sandbox.run(&["explain", "radius"]).ends(0).silent().out_text();
     assert!(word.contains("radius of Sphere: "), "{word}");
+    // What is a word of every day is said with nothing about where it does not stand.
+    let glass = sandbox.run(&["explain", "glass"]).ends(0).silent().out_text();
+    assert_eq!(glass, "glass is called Transparent here: `tracer explain Transparent` tells more\n");
     sandbox.run(&["explain", "radus"]).ends(2).says(&["did you mean radius?"]);
     sandbox.run(&["explain", "E9999"]).ends(2).says(&["E9999", "lists all codes"]);
 }

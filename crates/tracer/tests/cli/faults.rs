@@ -563,3 +563,29 @@ fn what_is_something_else_is_not_replaced() {
     sandbox.run(&["inspect", "scene.ron", "--pixel", "0,0", "--svg", "a.svg"]).ends(0);
     assert_eq!(sandbox.text("other.ron"), notes);
 }
+
+/// What is said of the materials of many mesh files is said once.
+#[test]
+fn materials_of_many_files_are_told_once() {
+    let sandbox = Sandbox::new();
+    let mut objects = String::new();
+    for k in 0..5 {
+        sandbox.write(&format!("{k}.obj"), format!("mtllib {k}.mtl\nusemtl x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+        sandbox.write(&format!("{k}.mtl"), "newmtl x\nKd 1 1 1\nPr 0.4\n");
+        objects += &format!("Mesh(file: \"{k}.obj\"),");
+    }
+    sandbox.write("many.ron", format!("Scene(background: 1, objects: [{objects}])"));
+    let ran = sandbox.run(&["check", "many.ron"]).ends(0);
+    assert_eq!(ran.err.matches("W0511").count(), 1, "{}", ran.err);
+    assert!(ran.err.contains("not supported: `Pr`; the same goes for 4 more mesh files"), "{}", ran.err);
+}
+
+/// That a part of a solid cannot shine is one fault: whether the scene has light is not asked then.
+#[test]
+fn a_shining_part_of_a_solid_is_one_fault() {
+    let sandbox = Sandbox::new();
+    let lamp = "Difference(objects: [Box(size: 2, material: Emissive(radiance: 3)), Box(size: 1)])";
+    sandbox.write("lamp.ron", format!("Scene(objects: [{lamp}])"));
+    let ran = sandbox.run(&["check", "lamp.ron"]).ends(2);
+    assert!(ran.err.contains("E0544") && !ran.err.contains("W0301"), "{}", ran.err);
+}

@@ -257,9 +257,9 @@ fn cameras_are_chosen_by_name() {
     sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(0);
     assert_ne!(sandbox.read("near.pfm"), sandbox.read("top.pfm"));
     let set = ["--set", "camera=top", "--set", "camera.fov=20", "-o", "x.png"];
-    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.\"top\".fov"]);
+    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.top.fov"]);
     let set = ["--set", "camera.fov=20", "-o", "x.png"];
-    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.\"front\".fov"]);
+    sandbox.run(&[&["render", "film.ron"][..], &set].concat()).ends(2).says(&["cameras.front.fov"]);
     sandbox.run(&["render", "film.ron", "--frame", "-1"]).ends(2).says(&["--frame"]);
 }
 
@@ -315,4 +315,19 @@ fn no_frame_replaces_what_another_is_made_of() {
     assert!(before == [sandbox.read("wood1.png"), sandbox.read("wood2.png")]);
     sandbox.run(&["render", "wood.ron", "--frames", "0-3", "-o", "a#.png"]).ends(0);
     sandbox.run(&["render", "wood.ron", "--frames", "0-3", "-o", "a#.png"]).ends(0);
+}
+
+/// What is wrong with an option is said of that option; names with room for a number are taken as they stand where
+/// no frame is asked for, and that is said.
+#[test]
+fn options_of_frames_are_told_by_their_names() {
+    let sandbox = film();
+    let ran = sandbox.run(&["render", "film.ron", "--frames", "9", "-o", "a_####.png"]).ends(2);
+    assert!(ran.err.contains("--> --frames:1:") && !ran.err.contains("--> --frame:"), "{}", ran.err);
+    sandbox.run(&["render", "film.ron", "--frame", "9", "-o", "a_####.png"]).ends(2).says(&["--> --frame:1:"]);
+    let says = "b_##.png is written under just that name: # stands for a frame's number with --frames or --frame alone";
+    sandbox.run(&["render", "scene.ron", "-o", "b_##.png"]).ends(0).says(&[says]);
+    assert!(sandbox.files().contains(&"b_##.png".to_owned()));
+    let ran = sandbox.run(&["render", "film.ron", "--frame", "1", "-o", "b_##.png"]).ends(0);
+    assert!(!ran.err.contains("warning") && sandbox.files().contains(&"b_01.png".to_owned()), "{}", ran.err);
 }

@@ -118,6 +118,12 @@ fn what_is_no_folder() {
     sandbox.write("some/golden.toml", "");
     sandbox.run(&["golden", "run", "some"]).ends(2).says(&["there is no scene in some"]);
     sandbox.run(&["golden", "new", "some"]).ends(2).says(&["some/golden.toml is there already"]);
+    let ran = sandbox.run(&["golden", "new", "scene.ron"]).ends(2);
+    assert!(
+        ran.err.contains("tracer golden new golden --scene scene.ron") && !ran.err.contains("os error"),
+        "{}",
+        ran.err
+    );
     sandbox.run(&["golden", "new", "other", "--scene", "no.ron"]).ends(2).says(&["there is no scene file no.ron"]);
     assert!(!sandbox.path("other").exists());
     sandbox.run(&["golden", "new", "other", "--size", "0x3"]).ends(2).says(&["640x480"]);

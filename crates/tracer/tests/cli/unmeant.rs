@@ -99,15 +99,26 @@ fn who_is_shut_in_is_told() {
     let lamp = "lights: [SphereLight(center: (0, 3, 0), radius: 0.5, radiance: 10)],";
     let ball = "Sphere(center: (0, 0, 0), radius: 1)";
     let code = |top: &str, objects: &str| codes(&sandbox, &scene(top, objects));
-    // The camera in a ball, a box, a box that is turned, and then the picture is black, too.
+    // The camera in a ball, a box, a box that is turned. That the picture is black then is told once.
+    sandbox.write("box.obj", cube(true));
     for solid in [
         "Sphere(center: (0, 1, 6), radius: 2)",
+        "Sphere(center: (0, 0, 0), radius: 2, transform: [Translate((0, 1, 6))])",
+        "Capsule(from: (0, 0, 6), to: (0, 2, 6), radius: 1)",
+        "Group(objects: [Sphere(center: (0, 1, 0), radius: 2)], transform: [Translate((0, 0, 6))])",
+        "Mesh(file: \"box.obj\", transform: [Translate((-0.5, 0.5, 5.5))])",
+        "Lathe(profile: [(0, 0), (1, 0), (1, 2), (0, 2)], transform: [Translate((0, 0, 6))])",
+        "Extrude(outline: [[(-1, -1), (1, -1), (0, 1)]], depth: 2, transform: [Translate((0, 1, 5))])",
+        "Box(center: (0, 1, 6), size: 2, rounding: 0.2)",
+        "Torus(radius: 6, tube_radius: 1.5)",
+        "Difference(objects: [Box(center: (0, 1, 6), size: 4), Sphere(center: (1.5, 1, 6), radius: 0.5)])",
+        "Union(objects: [Box(center: (0, 1, 6), size: 1), Sphere(center: (0, 1, 5), radius: 1)])",
         "Box(center: (0, 1, 6), size: 2)",
         "Box(size: 2, transform: [Rotate(axis: (0, 1, 0), degrees: 30), Translate((0, 1, 6))])",
         "Cylinder(from: (-3, 1, 6), to: (2, 1, 6), radius: 1)",
         "Cone(from: (0, -1, 6), to: (0, 5, 6), radius: 1)",
     ] {
-        assert_eq!(code(lamp, &format!("{ball}, {solid}")), ["W0306", "W0308"], "{solid}");
+        assert_eq!(code(lamp, &format!("{ball}, {solid}")), ["W0306"], "{solid}");
     }
     // A lamp in a ball; in a box that is moved.
     for solid in [
@@ -115,6 +126,12 @@ fn who_is_shut_in_is_told() {
         "Box(size: 2, placements: [[Translate((0, 3, 0))]])",
         "Cylinder(from: (-1, 3, 0), to: (1, 3, 0), radius: 0.51)",
         "Cone(from: (0, 2, 0), to: (0, 8, 0), radius: 1)",
+        "Group(objects: [Box(size: 2)], placements: [[Translate((0, 3, 0))]])",
+        "Mesh(file: \"box.obj\", transform: [Scale(factor: 3, about: (0, 0, 0)), Translate((-1.5, 1.5, -1.5))])",
+        "Box(center: (0, 3, 0), size: 2, rounding: 0.2)",
+        "Lathe(profile: [(0, 0), (1, 0), (1, 2), (0, 2)], transform: [Translate((0, 2, 0))])",
+        "Difference(objects: [Box(center: (0, 3, 0), size: 4), Box(center: (0, 4.5, 0), size: 1)])",
+        "Union(objects: [Box(center: (0, 3, 0), size: 2), Sphere(center: (0, 3, 0), radius: 0.8)])",
     ] {
         assert_eq!(code(&format!("background: 0.5, {lamp}"), &format!("{ball}, {solid}")), ["W0307"], "{solid}");
     }
@@ -122,11 +139,29 @@ fn who_is_shut_in_is_told() {
     let shining =
         "Sphere(center: (0, 3, 0), radius: 0.5, material: Emissive(radiance: 5)), Sphere(center: (0, 3, 0), radius: 1)";
     assert_eq!(code("background: 0.5,", &format!("{ball}, {shining}")), ["W0307"]);
+    // Of many lamps in one body it is told once; so is what shines a mesh.
+    let three = "lights: [SphereLight(center: (0, 3, 0), radius: 0.1, radiance: 9), SphereLight(center: (0.5, 3, 0), \
+                 radius: 0.1, radiance: 9), SphereLight(center: (0, 3, 0.5), radius: 0.1, radiance: 9)],";
+    let shade = "Sphere(center: (0, 3, 0), radius: 1)";
+    assert_eq!(code(&format!("background: 0.5, {three}"), &format!("{ball}, {shade}")), ["W0307"]);
+    sandbox.run(&["check", "odd.ron"]).ends(0).says(&["lights[0] and 2 more are shut in by objects[1]"]);
+    let ring =
+        "Torus(radius: 0.5, tube_radius: 0.1, transform: [Translate((0, 3, 0))], material: Emissive(radiance: 5))";
+    assert_eq!(code("background: 0.5,", &format!("{ball}, {ring}, {shade}")), ["W0307"]);
     // A pane without thickness bends light once.
     let pane = "Rectangle(size: 3, material: Transparent(ior: 1.5))";
     assert_eq!(code("background: 0.5,", &format!("{ball}, {pane}")), ["W0310"]);
     // Glass lets light through, a room holds camera and lamp, and a lamp may stick out.
+    sandbox.write("room.obj", cube(false));
     for solid in [
+        "Mesh(file: \"room.obj\", transform: [Scale(factor: 30, about: (0, 0, 0)), Translate((-15, -15, -15))])",
+        "Torus(radius: 6, tube_radius: 0.9)",
+        "Difference(objects: [Box(size: 30), Box(size: 20)])",
+        "Union(objects: [Box(center: (0, 3, 0), size: 0.9), Sphere(center: (0, 3, 0), radius: 0.3)])",
+        "Difference(objects: [Box(center: (0, 1, 6), size: 4, material: Transparent(ior: 1.5)), \
+         Sphere(center: (1.5, 1, 6), radius: 0.5)])",
+        "Box(center: (0, 1, 6), size: 2, camera_visible: false)",
+        "Box(center: (0, 3, 0), size: 2, camera_visible: false)",
         "Sphere(center: (0, 3, 0), radius: 1, material: Transparent(ior: 1.5))",
         "Box(center: (0, 0, 0), size: 20)",
         "Sphere(center: (0, 3, 0), radius: 0.4)",
@@ -135,6 +170,86 @@ fn who_is_shut_in_is_told() {
     ] {
         assert!(code(lamp, &format!("{ball}, {solid}")).is_empty(), "{solid}");
     }
+}
+
+/// What is lit within its walls by whatever shines is a room, and so is what one sees into.
+#[test]
+fn rooms_are_meant() {
+    let sandbox = Sandbox::new();
+    let code = |top: &str, objects: &str| codes(&sandbox, &scene(top, objects));
+    let room = "Box(center: (0, 1, 6), size: 4)";
+    let shining = "material: Emissive(radiance: 1)";
+    for lamp in [
+        format!("Disk(center: (0, 2.9, 6), normal: (0, -1, 0), radius: 0.5, {shining})"),
+        format!("Cylinder(from: (-1, 2.5, 6), to: (1, 2.5, 6), radius: 0.1, {shining})"),
+        format!("Rectangle(center: (0, 2.9, 6), normal: (0, -1, 0), size: 1, {shining})"),
+        // Its middle is not in the room.
+        format!("Sphere(center: (0, 3.4, 6), radius: 1, {shining})"),
+        format!(
+            "Rectangle(center: (0, 2.5, 0), normal: (0, 0, 1), size: (1, 30), transform: [Rotate(axis: (1, 0, 0), \
+                 degrees: 90)], {shining})"
+        ),
+    ] {
+        assert!(code("", &format!("{room}, {lamp}")).is_empty(), "{lamp}");
+    }
+    // A ring of light around a ball: its middle is in the ball, and it is not.
+    let ring = format!("Sphere(center: (0, 0, 0), radius: 1), Torus(radius: 1.5, tube_radius: 0.1, {shining})");
+    assert!(code("background: 0.1,", &ring).is_empty());
+    // What is open lets light in.
+    sandbox.write("open.obj", cube(true).lines().take(18).map(|line| format!("{line}\n")).collect::<String>());
+    let open = "Mesh(file: \"open.obj\", transform: [Scale(factor: 4, about: (0, 0, 0)), Translate((-2, -1, 4.5))])";
+    assert!(code("background: 0.5,", open).is_empty());
+    // Rays that start far from the camera, in front of it or beside it, may see into what it stands in, or out of it.
+    let ball = "Sphere(center: (0, 1, 6), radius: 0.5), Sphere(center: (0, 0, 0), radius: 1)";
+    let camera = |words: &str| {
+        let text = scene("background: 0.5,", ball);
+        codes(&sandbox, &text.replace("look_at: (0, 0.5, 0)", &format!("look_at: (0, 0.5, 0), {words}")))
+    };
+    assert_eq!(camera("fov: 40"), ["W0306"]);
+    assert!(camera("near: 1").is_empty());
+    assert!(camera("projection: Orthographic(height: 4)").is_empty());
+}
+
+/// Lamps that shine with nothing: each is told where others give light, and all at once where none does.
+#[test]
+fn lamps_without_light_are_told() {
+    let sandbox = Sandbox::new();
+    let ball = "Sphere(center: (0, 0, 0), radius: 1)";
+    let code = |top: &str, objects: &str| codes(&sandbox, &scene(top, &format!("{ball}, {objects}")));
+    let light = |words: &str| format!("lights: [SphereLight(center: (0, 3, 0), radius: 0.5, {words})],");
+    let shining = |words: &str| format!("Sphere(center: (0, 3, 0), radius: 0.5, material: Emissive({words}))");
+    for words in [
+        "radiance: 0",
+        "power: (0, 0, 0)",
+        "intensity: \"#000000\"",
+        "luminance: 0",
+        "luminous_power: 800, color: 0",
+        "radiance: 5, color: (0, 0, 0)",
+    ] {
+        assert_eq!(code(&light(words), ""), ["W0301"], "{words}");
+        assert_eq!(code("", &shining(words)), ["W0301"], "{words}");
+        assert_eq!(code(&format!("background: 0.5, {}", light(words)), ""), ["W0320"], "{words}");
+        assert_eq!(code("background: 0.5,", &shining(words)), ["W0320"], "{words}");
+        sandbox.run(&["check", "odd.ron"]).ends(0).says(&["the material of objects[1] shines with nothing"]);
+    }
+    // Of two one is told for both; of a material with a name its name, however many have it.
+    assert_eq!(code(&light("power: 0"), &shining("power: 0")), ["W0301"]);
+    sandbox.run(&["check", "odd.ron"]).ends(0).says(&["lights[0] and 1 more shine with nothing"]);
+    let named =
+        "Box(center: (0, 3, 0), size: 1, material: \"lamp\"), Box(center: (3, 3, 0), size: 1, material: \"lamp\")";
+    let top = "materials: { \"lamp\": Emissive(power: 0) }, background: 0.5,";
+    assert_eq!(code(top, named), ["W0320"]);
+    sandbox.run(&["check", "odd.ron"]).ends(0).says(&["the material \"lamp\" shines with nothing"]);
+    // One that is off by an expression or by --set is meant so; without any light W0308 tells what comes of it.
+    assert!(code(&format!("background: 0.5, {}", light("power: \"=0*2\"")), "").is_empty());
+    assert_eq!(code(&light("power: \"=0*2\""), ""), ["W0308"]);
+    sandbox.write("odd.ron", scene(&format!("background: 0.5, {}", light("power: 9")), ball));
+    sandbox.run(&["check", "odd.ron", "--set", "lights[0].power=0"]).ends(0).silent();
+    // Pictures of no light need none.
+    let occlusion = scene(&light("power: 0"), ball).replace("samples: 2", "samples: 2, integrator: AmbientOcclusion()");
+    assert!(codes(&sandbox, &occlusion).is_empty());
+    // That there is no light at all is told once, too.
+    assert_eq!(codes(&sandbox, &scene("", ball)), ["W0301"]);
 }
 
 #[test]
@@ -165,7 +280,7 @@ fn empty_pictures_are_told() {
     assert!(codes(&sandbox, &scene(lamp, "Sphere(center: (0, 0, 0), radius: 1)")).is_empty());
     // A background does not help who stands within something, whatever it is.
     let within = "Capsule(from: (0, 0, 6), to: (0, 2, 6), radius: 1)";
-    assert_eq!(codes(&sandbox, &scene("background: 0.5,", within)), ["W0308"]);
+    assert_eq!(codes(&sandbox, &scene("background: 0.5,", within)), ["W0306"]);
     // So little light that all of it is shown black; what a tone map makes of it, nobody knows.
     let ball = "Sphere(center: (0, 0, 0), radius: 1)";
     assert_eq!(codes(&sandbox, &scene("background: 0.5, effects: Effects(exposure: -14),", ball)), ["W0308"]);

@@ -6,6 +6,7 @@ use crate::failure::{Failure, exit};
 use crate::loading::expect_scene;
 use crate::shell::Shell;
 use crate::write::{WriteError, save, spare};
+use scene_format::Syntax;
 use std::path::{Component, Path, PathBuf};
 use std::process::ExitCode;
 use tracer_golden::settings::{FILE, Settings};
@@ -14,6 +15,18 @@ pub(super) fn run(args: &GoldenNewArgs, shell: &Shell) -> Result<ExitCode, Failu
     let folder = &args.folder;
     let shown = folder.display();
     args.scenes.iter().try_for_each(|scene| expect_scene(scene))?;
+    if folder.is_file() {
+        let is_scene = Syntax::from_path(folder).is_some();
+        let way = if is_scene {
+            format!(
+                "name a folder, and the scene by --scene: tracer golden new golden --scene {}",
+                quoted(&shown.to_string())
+            )
+        } else {
+            "name a folder".to_owned()
+        };
+        return Err(Failure::wrong(format!("{shown} is a file, and expected pictures lie in a folder; {way}")));
+    }
     let file = folder.join(FILE);
     spare(&file, false).map_err(|error| match error {
         WriteError::There { .. } => Failure::wrong(format!("{} is there already; edit it", file.display())),

@@ -73,7 +73,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
         shell.say(&denoised.to_text());
     }
     if shell.is_told() {
-        let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
+        let names = outputs::names(&files);
         let (fewest, most) = film.samples().into_inner();
         let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
         let of = counted(parts.len(), "part");

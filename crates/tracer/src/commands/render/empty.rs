@@ -1,13 +1,37 @@
 //! Pictures that show nothing.
 
-use scene_format::desc::{Background, ToneMap};
+use scene_format::codes::Code;
+use scene_format::desc::{Background, Integrator, ToneMap};
 use scene_format::{Diagnostic, SceneDesc, codes};
-use tracer_core::{Crop, Film};
+use tracer_core::{Crop, Film, Scene};
+
+/// What said before why a picture is black.
+const WHY_BLACK: [Code; 6] = [
+    codes::BLACK_PICTURE,
+    codes::CAMERA_SHUT_IN,
+    codes::LIGHT_SHUT_IN,
+    codes::NOTHING_IN_VIEW,
+    codes::UNSEEN_LIGHT,
+    codes::DARK_LAMP,
+];
 
 /// What is said of a picture that is black, white, or nothing but background. A part of one (`--crop`) may well be.
-/// `told`: what was said before it was made.
-pub(super) fn warning(film: &Film, desc: &SceneDesc, told: &[Diagnostic]) -> Option<Diagnostic> {
-    if told.iter().any(|fault| fault.code == codes::NOTHING_IN_VIEW) {
+/// Where it was said before why, nothing.
+pub(super) fn warning(film: &Film, desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
+    let fault = of_picture(film, desc, scene)?;
+    // That there is no light at all whoever reads a scene tells.
+    let no_light = desc.background.is_black() && tracer_core::shining_objects(scene) == 0 && !is_without_light(desc);
+    let is_told = no_light || scene.warnings.iter().any(|told| WHY_BLACK.contains(&told.code));
+    (fault.code != codes::ALL_BLACK || !is_told).then_some(fault)
+}
+
+/// Whether the picture is of no light, so that a scene needs none.
+fn is_without_light(desc: &SceneDesc) -> bool {
+    matches!(desc.render.integrator, Integrator::AmbientOcclusion { .. })
+}
+
+fn of_picture(film: &Film, desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
+    if scene.warnings.iter().any(|told| told.code == codes::NOTHING_IN_VIEW) {
         return None;
     }
     if film.crop() != Crop::whole(film.size()) {

@@ -124,6 +124,22 @@ fn with_number(name: &str, frame: u32) -> Option<String> {
     Some(format!("{}{frame:0digits$}{}", &name[..start], &name[end..]))
 }
 
+/// Says of names with `####` that they are taken as they stand where no frame is asked for.
+pub(super) fn tell_of_names(args: &RenderArgs, shell: &Shell) {
+    if args.scene.frame.is_some() {
+        return;
+    }
+    for path in files(&mut args.clone()) {
+        if path.to_string_lossy().contains("##") {
+            let message = format!(
+                "{} is written under just that name: # stands for a frame's number with --frames or --frame alone",
+                path.display()
+            );
+            shell.warn(&message);
+        }
+    }
+}
+
 /// Renders frames.
 ///
 /// # Errors
@@ -201,7 +217,7 @@ pub(super) fn run(
 /// The options of one frame.
 fn at(args: &RenderArgs, frame: u32) -> RenderArgs {
     let mut of_frame = args.clone();
-    (of_frame.frames, of_frame.scene.frame) = (None, Some(frame));
+    (of_frame.frames, of_frame.scene.frame, of_frame.scene.is_of_frames) = (None, Some(frame), true);
     of_frame
 }
 
@@ -270,7 +286,7 @@ fn example(path: &Path) -> PathBuf {
 pub fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(u32, u32, SceneDesc), Failure> {
     let mut scene = args.scene.clone();
     if let args::Frames::Range(first, _) = frames {
-        scene.frame = Some(first);
+        (scene.frame, scene.is_of_frames) = (Some(first), true);
     }
     let desc = load(&scene, &shell.without_warnings())?;
     let (first, last) = match frames {

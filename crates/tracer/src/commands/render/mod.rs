@@ -41,6 +41,9 @@ pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<
     let args = &with_integrator(args);
     let cache = Cache::open(&args.cache, args.threads, shell)?;
     let cached = cache.as_ref();
+    if args.frames.is_none() {
+        frames::tell_of_names(args, shell);
+    }
     let ended = match args.frames {
         _ if args.integrator.is_some() => {
             frames::numbered(args).and_then(|args| reference::run(&args, cached, shell, started))
@@ -217,7 +220,7 @@ fn one(
         elsewhere |= is_elsewhere;
         files.push(FileReport { path, format: "film", bytes: written.bytes, sha256: written.sha256 });
     }
-    let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
+    let names = outputs::names(&files);
     let to_open = args.open.then(|| outputs::to_open(&files)).flatten();
     let mut report = args
         .report
@@ -247,7 +250,7 @@ fn one(
         shell.say(&denoised.to_text());
     }
     tell_of(&film, args, &desc, shell);
-    shell.diagnostics(empty::warning(&film, &desc, &scene.warnings).as_slice(), &desc.sources, args.scene.diagnostics);
+    shell.diagnostics(empty::warning(&film, &desc, &scene).as_slice(), &desc.sources, args.scene.diagnostics);
     if let Some(part) = part.filter(|_| shell.is_told()) {
         shell.say(&format!("{names} in {:.2} s: {}", seconds.total, part_told(Some(part))));
     } else if shell.is_told() {

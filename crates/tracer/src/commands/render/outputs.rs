@@ -27,6 +27,12 @@ pub(super) fn name(place: &Place) -> String {
     }
 }
 
+/// The names of what was written, for the last line.
+pub fn names(files: &[FileReport]) -> String {
+    let name = |file: &FileReport| if file.path == "-" { "standard output".to_owned() } else { file.path.clone() };
+    files.iter().map(name).collect::<Vec<_>>().join(", ")
+}
+
 /// The same options with the picture's name, if there is none: the scene's own with the extension of a picture, beside
 /// it.
 ///

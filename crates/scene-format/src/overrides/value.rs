@@ -1,0 +1,37 @@
+//! What is said of a value of `--set` that cannot be read: it stands in no file, and in no scene; and how names are
+//! written in its path.
+
+use crate::codes;
+use crate::diagnostic::Diagnostic;
+use crate::read::shortened;
+
+/// A fault of a value, in words for a whole scene, in those for one value.
+pub(super) fn of_argument(fault: &mut Diagnostic) {
+    match fault.code {
+        codes::TEXT_AFTER_END => {
+            fault.message = "the value ended before this".to_owned();
+            fault.expected = "one value after `=`".to_owned();
+            fault.hint =
+                "remove what follows; several values stand in brackets, (1, 2, 3), and each has a --set of its \
+                          own"
+                .to_owned();
+        }
+        codes::UNCLOSED_BRACKET => fault.hint = format!("write {} at its end", fault.expected),
+        _ => {}
+    }
+}
+
+/// A name as a step of a path: between quotes where it has more than letters, digits and strokes.
+pub(super) fn step(name: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
+    if !name.is_empty() && name.chars().all(is_plain) { name.to_owned() } else { format!("\"{name}\"") }
+}
+
+/// What is to be set instead, where a `kind` is given by its name: the one of that name, by its path as a shell takes
+/// it.
+pub(super) fn instead(kind: &str, name: &str, rest: &str) -> String {
+    let (step, rest) = (step(&shortened(name)), if rest.is_empty() { String::new() } else { format!(".{rest}") });
+    let path = format!("{kind}s.{step}{rest}");
+    let path = if step.starts_with('"') { format!("'{path}'") } else { path };
+    format!("set the {kind} of that name: {path}")
+}
