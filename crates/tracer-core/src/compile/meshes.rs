@@ -561,7 +561,8 @@ impl Built {
                     (true, true) => [c, a, b],
                 };
                 let two_sided = shine.two_sided;
-                let flat = FlatLight { corner, edges: [first - corner, second - corner], radiance, two_sided };
+                let edges = [first - corner, second - corner];
+                let flat = FlatLight { corner, edges, radiance, two_sided, offset: 0.0 };
                 self.lights.push(if shine.quads { Light::Parallelogram(flat) } else { Light::Triangle(flat) });
             }
             t.light.push(first + self.lights.len() as u32 - 1);

@@ -192,6 +192,24 @@ impl Coplanar {
         &self.shapes.of
     }
 
+    /// How far rays start off a primitive at least, and end before it; 0 where nothing else lies in its plane.
+    pub fn offset(&self, primitive: u32) -> f32 {
+        self.triangles.get(primitive).max(self.shapes.get(primitive))
+    }
+
+    /// Whether another one wins over some part of a primitive.
+    pub fn is_covered(&self, primitive: u32, instance: u32) -> bool {
+        let from = self.members.partition_point(|m| (m.primitive, m.instance) < (primitive, instance));
+        let of_primitive = |m: &&Member| (m.primitive, m.instance) == (primitive, instance);
+        self.members[from..].iter().take_while(of_primitive).any(|m| m.winners[0] < m.winners[1])
+    }
+
+    /// Whether another one wins over a primitive where a ray's line passes it at t, which may be that of a plane so far
+    /// beside.
+    pub fn is_covered_at(&self, target: (u32, u32), rays: &Rays, ray: usize, t: f32, slack: f32) -> bool {
+        self.member(target, rays, ray, t, slack).is_some_and(|member| self.winner(member, rays, ray, t).is_some())
+    }
+
     /// All primitives that take part, rising.
     pub fn primitives(&self) -> Vec<u32> {
         let mut all: Vec<u32> = self.members.iter().map(|member| member.primitive).collect();
