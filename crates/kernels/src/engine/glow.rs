@@ -1,6 +1,6 @@
-//! What is known of lamps only when all else of a scene stands: before what lies in one plane with them rays to them end,
-//! and how much of their light those have whose points shine unlike each other. What chooses between lights, and who
-//! sends photons, goes by the latter, which need not be exact, since what is chosen seldom counts more.
+//! What is known of lamps only when all else of a scene stands: how far before them rays end where something lies in
+//! their plane, and how much of their light those have whose points shine unlike each other. What chooses between
+//! lights, and who sends photons, goes by the latter, which need not be exact, since what is chosen seldom counts more.
 
 use super::stages::lights::{curved, share_towards};
 use crate::lanes::{ArrayF, ArrayU, Bits, Lanes};

@@ -14,8 +14,8 @@ pub struct Glow {
     pub primitive: Vec<u32>,
     /// Its instance, or [`NONE`].
     pub instance: Vec<u32>,
-    /// 1 where something that lies in the light's plane is met in place of some part of it ([`crate::bvh`]), which gives
-    /// no light then; else 0.
+    /// 1 where something that lies in the light's plane is met in place of some part of it ([`crate::bvh`]), which
+    /// gives no light then; else 0.
     pub covered: Vec<u32>,
     /// How much of its radiance a light has, on average, about: what chooses between lights goes by it. Never zero.
     pub share: Vec<f32>,
@@ -52,8 +52,8 @@ impl Glow {
 }
 
 impl Scene {
-    /// Tells of all surfaces, and of each the light that it is, or none of [`Scene::lights`], its material, primitive and
-    /// instance, or [`NONE`]. Of two triangles that are one light the first comes last.
+    /// Tells of all surfaces: of each the light that it is, or none of [`Scene::lights`], its material, its primitive,
+    /// and its instance or [`NONE`]. Of two triangles that are one light the first comes last.
     pub fn surfaces_of_lights(&self, mut tell: impl FnMut(u32, u32, u32, u32)) {
         for (id, sphere) in (0..).zip(self.spheres.iter()) {
             tell(sphere.light, sphere.material, id, NONE);

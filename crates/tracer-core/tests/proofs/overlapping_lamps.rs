@@ -138,6 +138,12 @@ fn triangles_light_as_the_pieces_that_are_seen() {
 /// What shines is seen, not what is matt in its plane: neither takes any of its light, whichever comes first.
 #[test]
 fn what_is_matt_takes_no_light_from_a_lamp_in_its_plane() {
+    let black = "material: Diffuse(albedo: 0)";
+    let disk = |radius: f64, material: &str| {
+        format!("Disk(center: (0, 2, 0), normal: (0, -1, 0), radius: {radius}, {material})")
+    };
+    let lamp = disk(0.5, &shining(WARM));
+    assert_same_light("a disk on a disk", &format!("{}, {lamp}", disk(0.8, black)), &lamp);
     let matt = |y: &str| panel(0.3, y, [1.2, 1.6], "material: Diffuse(albedo: 0.4)");
     let lamp = panel(-0.3, "2", [1.2, 1.0], &shining(WARM));
     let behind = format!("{lamp}, {}", matt("2.0001"));

@@ -14,7 +14,8 @@
 //! Where two bodies that let light through touch, one face stands for both: what is behind it is not the outside but
 //! the other body ([`Coplanar::touching`]), and light passes from the one into the other at once. Else a ray that goes
 //! from body to body would leave twice, or enter twice, and carry the square of an index too much or too little. Where
-//! one lies in the other and ends where that ends, water flush with the rim, light passes into both at once.
+//! one lies in the other and ends where that ends, water flush with the rim, light passes into both at once. Bodies of
+//! the same triangles are one, the first.
 //!
 //! Rays start off such a surface by more than the others may lie in front of it ([`Coplanar::offsets`]), and rays to a
 //! surface end before it by as much; a ray to one that loses is blocked where the winner is. Who has no such
