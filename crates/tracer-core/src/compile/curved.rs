@@ -256,7 +256,7 @@ impl Curved {
                 let mut light = NONE;
                 if let Some(&radiance) = radiances.get(copy) {
                     light = lamps.len() as u32;
-                    lamps.push(CurvedLight { shape, unit, placement, radiance, two_sided });
+                    lamps.push(CurvedLight { shape, unit, placement, radiance, two_sided, offset: 0.0 });
                 }
                 shapes.push(Shape { unit, placement, material, light, object, coordinates });
             }

@@ -431,11 +431,12 @@ impl Built {
         let t = &self.triangles;
         let shines = |triangle: usize| t.light.get(triangle).is_some_and(|&light| light != NONE);
         let of_triangle = |(triangle, &material)| if shines(triangle) { 0 } else { of_material(material) };
+        let of_shape = |shape: &Shape| if shape.light == NONE { of_material(shape.material) } else { 0 };
         let of_instance = |instance: &Instance| (instance.material != NONE).then(|| of_material(instance.material));
         bvh::Ranks {
             triangles: t.material.iter().enumerate().map(of_triangle).collect(),
             instances: self.instances.iter().map(of_instance).collect(),
-            shapes: shapes.iter().map(|shape| of_material(shape.material)).collect(),
+            shapes: shapes.iter().map(of_shape).collect(),
             materials: (0..materials.len() as u32).any(|k| of_material(k) == bvh::TRANSMITS).then(|| bvh::Materials {
                 triangles: t.material.clone(),
                 instances: self.instances.iter().map(|i| (i.material != NONE).then_some(i.material)).collect(),
@@ -564,7 +565,8 @@ impl Built {
                     (true, true) => [c, a, b],
                 };
                 let two_sided = shine.two_sided;
-                let flat = FlatLight { corner, edges: [first - corner, second - corner], radiance, two_sided };
+                let edges = [first - corner, second - corner];
+                let flat = FlatLight { corner, edges, radiance, two_sided, offset: 0.0 };
                 self.lights.push(if shine.quads { Light::Parallelogram(flat) } else { Light::Triangle(flat) });
             }
             t.light.push(first + self.lights.len() as u32 - 1);
