@@ -363,6 +363,7 @@ const tests = {
     await wait(() => readFileSync(program.scene, "utf8") !== SCENE, "it is written");
     const nearer = /position: \(([^)]*)\)/.exec(readFileSync(program.scene, "utf8"))[1].split(",").map(Number);
     assert.ok(Math.hypot(nearer[0], nearer[1] - 1, nearer[2]) < 5.9, `${nearer} is nearer`);
+    await page.waitForSelector("#cameraUndo:not(:disabled)");
     await page.keyboard.press("u");
     await wait(() => readFileSync(program.scene, "utf8") === SCENE, "it is taken back");
     await page.keyboard.press("Escape");

@@ -81,6 +81,16 @@ fn every_example_of_the_reference_renders() {
                 picture("the reference", &text, Syntax::Toml, Path::new(""));
                 scenes += 1;
             }
+            // Fields of the scene, as many as show a group of them.
+            "ron"
+                if text.starts_with(char::is_lowercase)
+                    && !examples.iter().any(|e| e.ron.contains(text.trim_end())) =>
+            {
+                let object = "Sphere(center: (0, 1, 0), radius: 1, material: Emissive(radiance: 1), name: \"ball\")";
+                let scene = format!("Scene({}, objects: [{object}])", text.trim_end());
+                picture("the reference", &scene, Syntax::Ron, Path::new(""));
+                parts += 1;
+            }
             // Part of an example, that has been rendered.
             "ron" => {
                 let found = examples.iter().any(|example| example.ron.contains(text.trim_end()));

@@ -522,7 +522,10 @@ fn mistyped_commands_and_options_of_others_get_tips_that_help() {
     let sandbox = Sandbox::new();
     sandbox.run(&["hlep"]).ends(2).says(&["'help'"]);
     sandbox.run(&["golden", "rnu"]).ends(2).says(&["'run'"]);
-    sandbox.run(&["check", "-q"]).ends(2).says(&["tracer check has no -q, which render, merge and repro take"]);
+    sandbox
+        .run(&["info", "-q"])
+        .ends(2)
+        .says(&["tracer info has no -q, which render, merge, check, repro and compare take"]);
     let ran = sandbox.run(&["render", "scene.ron", "--foo"]).ends(2);
     assert!(!ran.err.contains("as a value"), "{}", ran.err);
 }
