@@ -143,10 +143,11 @@ fn the_first_is_seen_wherever_it_is() {
     }
 }
 
-/// A lamp in the plane of the ceiling lights the floor as one without a ceiling, and is seen whole. Rays to it end before
-/// all that may lie in its plane by rounding, by some 16 units in the last place of the farthest corner, so that it
-/// lights as if it hung lower by o: at h = 2 above the floor and a distance of d the floor gets h^2 / d^4 of it, of which
-/// that is at most 2 o / h + 4 o h / d^2 <= 6 o / h.
+/// A lamp in the plane of the ceiling lights the floor as one without a ceiling, and is seen whole. Rays to it end
+/// before all that may lie in its plane by rounding, by some 16 units in the last place of the farthest corner, so that
+/// it lights as if it hung lower by o: at h = 2 above the floor and a distance of d that gets h^2 / d^4 of it, of which
+/// o changes at most 2 o / h + 4 o h / d^2 <= 6 o / h. A wide ceiling is seen beside the floor, where it gets nothing
+/// but for roundings.
 #[test]
 fn a_lamp_let_into_the_ceiling_shines() {
     let emissive = Material::Emissive(Box::new(Emissive {
@@ -181,7 +182,7 @@ fn a_lamp_let_into_the_ceiling_shines() {
         let with = seen(vec![ceiling.clone(), floor.clone(), lamp.clone()], eye, below);
         for (k, (a, b)) in alone.iter().zip(&with).enumerate() {
             assert!(
-                (a[0] - b[0]).abs() <= tolerance * a[0],
+                (a[0] - b[0]).abs() <= tolerance * a[0] + 1e-9,
                 "turned by {turn}, {wide} wide, pixel {k}: {b:?}, not {a:?}"
             );
         }

@@ -151,15 +151,24 @@ fn what_is_matt_takes_no_light_from_a_lamp_in_its_plane() {
     assert_same_light("a lamp after a poster", &format!("{}, {lamp}", matt("2")), &behind);
 }
 
-/// Photons and light paths start where a lamp is seen.
-#[test]
-fn what_guides_starts_where_lamps_are_seen() {
+/// Two lamps that overlap, or the pieces of them that are seen, over glass and a mirror.
+fn over_casters(second: [f64; 2]) -> SceneDesc {
     let casters = "Sphere(center: (0.6, 0.5, 0.8), radius: 0.5, material: Transparent(ior: 1.5)), \
                    Sphere(center: (1.8, 0.4, -0.4), radius: 0.4, material: Mirror(reflectance: 0.9))";
-    let [first, second] = [WARM, COLD].map(shining);
-    let whole = panel(-0.1, "2", [0.4, 0.5], &first);
-    let both = format!("{casters}, {whole}, {}", panel(0.1, "2", [0.4, 0.5], &second));
-    let cut = format!("{casters}, {whole}, {}", panel(0.2, "2", [0.2, 0.5], &second));
-    assert_guiding_is_unbiased("lamps that overlap", &room(&both), 1024, 1);
-    assert_same_scenes("over glass and mirrors", &room(&both), &room(&cut), 1024);
+    let [x, width] = second;
+    let whole = panel(-0.1, "2", [0.4, 0.5], &shining(WARM));
+    room(&format!("{casters}, {whole}, {}", panel(x, "2", [width, 0.5], &shining(COLD))))
+}
+
+/// Photons and light paths start where a lamp is seen.
+#[test]
+fn light_over_glass_and_mirrors_is_that_of_the_pieces() {
+    assert_same_scenes("over glass and mirrors", &over_casters([0.1, 0.4]), &over_casters([0.2, 0.2]), 256);
+}
+
+#[test]
+#[ignore = "long: cargo xtask prove proofs"]
+fn what_guides_starts_where_lamps_are_seen() {
+    assert_guiding_is_unbiased("lamps that overlap", &over_casters([0.1, 0.4]), 1024, 1);
+    assert_same_scenes("over glass and mirrors", &over_casters([0.1, 0.4]), &over_casters([0.2, 0.2]), 1024);
 }

@@ -57,6 +57,27 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: suite("bvh_coplanar", &["what_is_apart"]),
     },
     Mutant {
+        name: "covered-lamps-shine",
+        file: "crates/kernels/src/scene/glow.rs",
+        find: "accel.is_some_and(|accel| shines && accel.is_covered(primitive, instance))",
+        replace: "accel.is_some_and(|accel| !shines && accel.is_covered(primitive, instance))",
+        caught_by: proofs(&["overlapping_lamps::"]),
+    },
+    Mutant {
+        name: "lamps-end-in-wide-ceilings",
+        file: "crates/kernels/src/engine/glow.rs",
+        find: "light.keep_off(offset.into())",
+        replace: "light.keep_off(0.0 * f64::from(offset))",
+        caught_by: proofs(&["coplanar::a_lamp_let_into_the_ceiling"]),
+    },
+    Mutant {
+        name: "small-lamps-in-their-own-way",
+        file: "crates/kernels/src/engine/stages/lights/flat.rs",
+        find: "const SHORT: f32 = 1.0 - 1.0 / 524_288.0;",
+        replace: "const SHORT: f32 = 1.0;",
+        caught_by: proofs(&["shining::a_lamp_at_the_origin"]),
+    },
+    Mutant {
         name: "touching-glass-as-if-alone",
         file: "crates/kernels/src/engine/stages/materials/mod.rs",
         find: "self.parameter / ior",
