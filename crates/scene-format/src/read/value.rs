@@ -162,7 +162,11 @@ impl Reader<'_> {
         if let Kind::Text | Kind::Word = item.kind() {
             let text = item.text();
             let trimmed = text.trim();
-            edit = trimmed.parse::<f64>().ok().filter(|v| v.is_finite()).map(|_| trimmed.to_owned());
+            edit = trimmed.parse::<f64>().ok().filter(|v| v.is_finite()).map(|value| match at.kind {
+                // `"1.0"`, of which without quotes another fault would be left.
+                Type::Integer if value.fract() == 0.0 => format!("{value}"),
+                _ => trimmed.to_owned(),
+            });
             let off = ["none", "off", "no", "never"].iter().any(|word| trimmed.eq_ignore_ascii_case(word));
             if off && matches!(at.kind, Type::Optional(Type::Number)) {
                 edit = Some(none(item.syntax()).to_owned());
