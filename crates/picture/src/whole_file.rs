@@ -99,7 +99,7 @@ impl OutputKind {
                 json && ours
                     || text.starts_with("<?xml") && text.contains("name=\"tracer golden\"")
                     || text.starts_with("<!doctype html>") && text.contains("<h1>Golden pictures")
-                    || text.starts_with("<svg")
+                    || text.starts_with("<svg") && text.contains(", sample ")
             }
         };
         known || head.len() < WORTH

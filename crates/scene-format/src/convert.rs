@@ -204,6 +204,21 @@ impl Converter<'_, '_> {
         Entry { name: name.into(), value, before, after }
     }
 
+    /// With the comments that stand before the bracket that closes an item, behind its last entry: what somebody has
+    /// commented out there stays within.
+    fn with_last_comments(&mut self, item: Item<'_, '_>, mut entries: Vec<Entry>) -> Vec<Entry> {
+        let Some(bracket) = item.span().end.checked_sub(1) else { return entries };
+        let closes = self.text().as_bytes().get(bracket as usize).is_some_and(|byte| b")]}".contains(byte));
+        if closes && self.to != Syntax::Json {
+            let mut comments = self.comments_before(bracket);
+            comments.pop_if(|last| last == BLANK_LINE);
+            if !comments.is_empty() {
+                entries.push(Entry { before: comments, ..Entry::new("", Form::Absent) });
+            }
+        }
+        entries
+    }
+
     fn form(&mut self, item: Item<'_, '_>, kind: Type) -> Form {
         if is_expression(item) && !matches!(kind, Type::Text | Type::File) {
             return Form::Text(item.text().into_owned());
@@ -226,11 +241,13 @@ impl Converter<'_, '_> {
                 _ => Form::Lexeme(self.number(item)),
             },
             Type::List(inner) => self.list(item, inner),
-            Type::Map(inner) => Form::Map(
-                item.fields()
-                    .map(|(key, value)| self.entry(key.text().into_owned(), key.span().start, value, *inner))
-                    .collect(),
-            ),
+            Type::Map(inner) => {
+                let entry = |(key, value): (Item<'_, '_>, _)| {
+                    self.entry(key.text().into_owned(), key.span().start, value, *inner)
+                };
+                let entries = item.fields().map(entry).collect();
+                Form::Map(self.with_last_comments(item, entries))
+            }
             Type::Struct(def) => self.fields(item, def),
             Type::Enum(def) => self.variant(item, def),
             Type::Optional(inner) => {
@@ -264,7 +281,8 @@ impl Converter<'_, '_> {
                 None => self.entry(String::new(), start, child, *inner),
             }
         });
-        Form::List(entries.collect())
+        let entries = entries.collect();
+        Form::List(self.with_last_comments(item, entries))
     }
 
     fn repeat(&mut self, body: Item<'_, '_>, inner: &'static Type) -> Form {
@@ -275,7 +293,8 @@ impl Converter<'_, '_> {
                 _ => self.entry_of(name, start, value, |converter| converter.list(value, inner)),
             }
         });
-        let fields = Form::Struct { name: REPEAT.name, fields: fields.collect() };
+        let fields = fields.collect();
+        let fields = Form::Struct { name: REPEAT.name, fields: self.with_last_comments(body, fields) };
         Form::Variant { name: REPEAT.name, content: Some(Box::new(fields)) }
     }
 
@@ -285,14 +304,15 @@ impl Converter<'_, '_> {
             self.entry_of(name, start, value, |converter| match value.kind() {
                 Kind::List => {
                     let items = value.children();
-                    Form::List(
-                        items.map(|item| converter.entry(String::new(), item.span().start, item, kind)).collect(),
-                    )
+                    let items = items.map(|item| converter.entry(String::new(), item.span().start, item, kind));
+                    let items = items.collect();
+                    Form::List(converter.with_last_comments(value, items))
                 }
                 _ => converter.form(value, Type::Integer),
             })
         });
-        let fields = Form::Struct { name: PICK.name, fields: fields.collect() };
+        let fields = fields.collect();
+        let fields = Form::Struct { name: PICK.name, fields: self.with_last_comments(body, fields) };
         Form::Variant { name: PICK.name, content: Some(Box::new(fields)) }
     }
 
@@ -313,7 +333,8 @@ impl Converter<'_, '_> {
         let entries = item
             .children()
             .map(|child| self.entry_of(String::new(), child.span().start, child, |converter| converter.of_var(child)));
-        Form::List(entries.collect())
+        let entries = entries.collect();
+        Form::List(self.with_last_comments(item, entries))
     }
 
     /// A number, or what may stand in its place.
@@ -353,7 +374,7 @@ impl Converter<'_, '_> {
                 Some(self.entry(field.name.to_owned(), key.span().start, value, field.kind))
             })
             .collect();
-        Form::Struct { name: def.name, fields }
+        Form::Struct { name: def.name, fields: self.with_last_comments(item, fields) }
     }
 
     fn variant(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> Form {

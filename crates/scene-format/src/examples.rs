@@ -1,6 +1,8 @@
 //! A small complete scene for every kind of thing in the language: shown in the reference, loaded and rendered by
 //! tests.
 
+pub(crate) mod lines;
+
 use crate::desc::{
     Acceleration, Caustics, Curve, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material,
     Matte, Metal, NoiseKind, Object, PixelFilter, RampInterpolation, Reuse, Shading, SolidMapping, TextureChannel,

@@ -1,5 +1,6 @@
 //! Words of the language, explained one by one: the pieces of the reference that tell of them.
 
+use crate::examples::{lines, snippet};
 use crate::expression;
 use crate::read::{PICK, REPEAT, everyday, expected};
 use crate::reference::reference;
@@ -76,6 +77,8 @@ pub fn words() -> Vec<String> {
         words.push(called(piece.name).to_owned());
         words.extend(piece.lines.iter().filter_map(|line| row(line)).map(|[name, ..]| name));
     }
+    let of_bodies = [&PICK, &REPEAT].into_iter().flat_map(|body| body.fields.iter().map(|field| field.name));
+    words.extend(of_bodies.map(str::to_owned));
     words.sort();
     words.dedup();
     words
@@ -111,7 +114,12 @@ pub fn explain_word(word: &str) -> Option<String> {
         out.truncate(out.trim_end().len());
         out.push('\n');
         if piece.of.is_none() {
-            out += &kinds(piece.name, &pieces);
+            let kinds = kinds(piece.name, &pieces);
+            let is_shown = piece.lines.contains(&"```ron") || kinds.is_empty();
+            let shown = pieces.iter().find(|kind| kind.of == Some(piece.name)).filter(|_| !is_shown);
+            let words = shown.and_then(|kind| snippet(choice_of(piece.name), kind.name));
+            words.iter().for_each(|words| out += &format!("\n```ron\n{words}\n```\n"));
+            out += &kinds;
         }
     }
     // A field in small letters is no kind of that name: `albedo` and the layer `Albedo`.
@@ -122,6 +130,9 @@ pub fn explain_word(word: &str) -> Option<String> {
                 if name.eq_ignore_ascii_case(word) {
                     let of = called(piece.name);
                     let _ = writeln!(out, "{apart}{name} of {of}: {takes}; {}.\n  {means}", said(&default));
+                    if let Some(line) = lines::field(&name, of) {
+                        let _ = writeln!(out, "  As in: {line}");
+                    }
                     apart = "";
                 }
             }
@@ -130,6 +141,12 @@ pub fn explain_word(word: &str) -> Option<String> {
     for body in [&PICK, &REPEAT] {
         if body.name.eq_ignore_ascii_case(word) {
             out.insert_str(0, &of_body(body, !out.is_empty()));
+        }
+        if let Some(field) = body.fields.iter().find(|field| field.name.eq_ignore_ascii_case(word)) {
+            let apart = if out.is_empty() { "" } else { "\n" };
+            let (name, of) = (field.name, body.name);
+            let _ = writeln!(out, "{apart}{name} of {of}: {}.\n  {}", expected(field), prose(field.doc));
+            lines::field(name, of).iter().for_each(|line| out += &format!("  As in: {line}\n"));
         }
     }
     let apart = if out.is_empty() { "" } else { "\n" };
@@ -150,7 +167,18 @@ fn of_body(def: &StructDef, more: bool) -> String {
     for field in def.fields {
         let _ = writeln!(out, "  {}: {}. {}", field.name, expected(field), prose(field.doc));
     }
+    lines::group(def.name).iter().for_each(|line| out += &format!("  As in: {line}\n"));
     out + if more { "\n" } else { "" }
+}
+
+/// The choice that a heading is of.
+fn choice_of(heading: &str) -> &str {
+    match heading {
+        "Transform" => "TransformWords",
+        "Texture" => "PatternWords",
+        "Antialiasing" => "PixelFilter",
+        name => name,
+    }
 }
 
 /// What a heading is called in scenes.
@@ -231,6 +259,7 @@ mod tests {
             ("blackbody", "what glows at that temperature"),
             ("Pick", "One of several values"),
             ("repeat", "Puts its items into the list"),
+            ("index", "index of Repeat"),
             ("frame", "from 0"),
             ("sky", "`background`"),
             ("sun", "SphereLight"),
@@ -253,8 +282,12 @@ mod tests {
     fn every_word_is_explained() {
         let words = words();
         assert!(words.len() > 60, "{words:?}");
-        for word in words {
-            assert!(explain_word(&word).is_some_and(|text| !text.contains("](#")), "{word}");
-        }
+        let without = words.into_iter().filter(|word| {
+            let text = explain_word(word).unwrap_or_default();
+            assert!(!text.is_empty() && !text.contains("](#"), "{word}: {text}");
+            // With an example.
+            !text.contains("```ron\n") && !text.contains("  As in: ")
+        });
+        assert_eq!(without.collect::<Vec<_>>(), [""; 0]);
     }
 }

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 /// A value as it will be written.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Form {
-    /// What has no words: a material that was not written.
+    /// What has no words: a material that was not written. As an entry: comments behind the last one alone.
     Absent,
     Bool(bool),
     Number(f64),

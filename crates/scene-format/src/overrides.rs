@@ -113,6 +113,16 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
         .expected("path=value, as in --set camera.fov=40")
         .hint("put quotes around it in the shell if it has spaces or brackets: --set 'camera.fov=40'")
     })?;
+    if let Some(operator) = argument[..equals].chars().next_back().filter(|c| "+-*/".contains(*c)) {
+        let at = span(source, equals - 1, equals + 1);
+        return Err(Diagnostic::error(
+            codes::BAD_SET_SYNTAX,
+            at,
+            format!("`{operator}=`: --set gives a field a value, and reckons with none that stands there"),
+        )
+        .expected("path=value, as in --set camera.fov=40")
+        .hint("give what comes of it; or let the scene reckon with a name of `vars`: --set vars.name=2"));
+    }
     let steps = steps(&argument[..equals], source)?;
     let mut builder = Builder::new(source);
     let (faults, told) = (sink.errors, sink.diagnostics.len());

@@ -3,7 +3,7 @@
 
 use crate::codes::CODES;
 use crate::desc::Scene;
-use crate::examples::{CHOICES, snippet};
+use crate::examples::{CHOICES, lines, snippet};
 use crate::form::Form;
 use crate::print::{ron_value, toml_value};
 use crate::read::expected;
@@ -340,6 +340,9 @@ fn section(out: &mut String, def: &'static StructDef, done: &mut Done) {
     }
     done.structs.push(def.name);
     let _ = write!(out, "\n## {}\n\n{}\n", def.name, prose(def.doc));
+    if let Some(line) = lines::group(def.name) {
+        let _ = write!(out, "\n```ron\n{line}\n```\n");
+    }
     table(out, def);
     for field in def.fields {
         parts(out, field.kind, done);

@@ -209,6 +209,36 @@ fn comments_stay_with_their_table() {
     assert_eq!(format("s.toml", &tidy, Syntax::Toml).expect("right"), tidy);
 }
 
+/// What somebody has commented out at the end of a list, a map, an object or the scene stays within its brackets: it
+/// can be taken in again there.
+#[test]
+fn comments_stay_within_their_brackets() {
+    let text = "Scene(\n    background: 1,\n    materials: {\n        \"a\": Diffuse(albedo: 0.5),\n        // \"b\": \
+                Mirror(),\n    },\n    objects: [\n        Sphere(\n            center: (0, 0, 0),\n            \
+                radius: 1,\n            // material: \"a\",\n        ),\n        // Sphere(center: (2, 0, 0), \
+                radius: 1),\n    ],\n    // lights: [],\n)\n";
+    assert_eq!(format("s.ron", text, Syntax::Ron).expect("right"), text);
+    let taken_in = format("s.ron", &text.replace("// ", ""), Syntax::Ron).expect("it can be taken in");
+    assert_eq!(taken_in.matches("Sphere(").count(), 2, "{taken_in}");
+    // In an empty list, too.
+    let empty = text.replace("    background: 1,\n", "    background: 1,\n    cameras: {\n        // none\n    },\n");
+    assert_eq!(format("s.ron", &empty, Syntax::Ron).expect("right"), empty);
+    let toml = convert("s.ron", text, Syntax::Ron, Syntax::Toml).expect("right");
+    let place = |text: &str| toml.find(text).unwrap_or_else(|| panic!("{text} is lost: {toml}"));
+    assert!(place("# \"b\"") > place("[materials]") && place("# \"b\"") < place("[[objects]]"), "{toml}");
+    assert!(place("# Sphere(") > place("[[objects]]") && place("# lights") > place("# Sphere("), "{toml}");
+    let tidy = format("s.toml", &toml, Syntax::Toml).expect("right");
+    assert_eq!(tidy.matches('#').count(), 4, "{tidy}");
+    assert_eq!(format("s.toml", &tidy, Syntax::Toml).expect("right"), tidy);
+    let json = convert("s.ron", text, Syntax::Ron, Syntax::Json).expect("right");
+    assert!(!json.contains("lights") && load_str("s", &json, Syntax::Json, Path::new(""), &[]).is_ok(), "{json}");
+    // Of a list of a TOML file that takes several lines.
+    let list = "background = 1\nobjects = []\nvars.way = [\n    [0, 0, 0],\n    [1, 0, 0],\n    # [2, 0, 0],\n]\n";
+    if let Ok(tidy) = format("s.toml", list, Syntax::Toml) {
+        assert!(tidy.contains("    # [2, 0, 0],\n"), "{tidy}");
+    }
+}
+
 /// What is wrong with values and names is laid out whole: nothing of the text is lost but blanks, commas, signs,
 /// and how comments are marked.
 #[test]

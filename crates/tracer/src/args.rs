@@ -31,6 +31,7 @@ use crate::commands::{CompletedShell, Template};
 use crate::write::Bits;
 use clap::builder::styling::{AnsiColor, Styles};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use scene_format::codes::{Code, find};
 use scene_format::{Override, Syntax};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -52,9 +53,15 @@ const STYLES: Styles = Styles::styled()
     .literal(AnsiColor::Cyan.on_default().bold())
     .placeholder(AnsiColor::Cyan.on_default());
 
+/// The version, and of a release build in a clone the commit that it was built of.
+const VERSION: &str = match option_env!("TRACER_COMMIT") {
+    Some(commit) => commit,
+    None => env!("CARGO_PKG_VERSION"),
+};
+
 /// A declarative path tracer: a scene file becomes a picture.
 #[derive(Debug, Parser)]
-#[command(name = "tracer", version, after_help = EXAMPLES, styles = STYLES, max_term_width = 100)]
+#[command(name = "tracer", version = VERSION, after_help = EXAMPLES, styles = STYLES, max_term_width = 100)]
 #[command(disable_help_subcommand = true, arg_required_else_help = true, help_template = TEMPLATE)]
 pub struct Cli {
     /// What to do.
@@ -68,6 +75,18 @@ pub struct Cli {
     /// Say what is loaded and how long it takes
     #[arg(short, long, global = true)]
     pub verbose: bool,
+    /// Say nothing of warnings of this code, and do not count them: W0511 (repeatable)
+    #[arg(long, global = true, value_name = "CODE", value_parser = warning)]
+    pub allow: Vec<Code>,
+}
+
+/// The code of a warning.
+fn warning(text: &str) -> Result<Code, String> {
+    let entry = find(text).ok_or("there is no such code; `tracer explain` lists them".to_owned())?;
+    match entry.code.as_str().starts_with('W') {
+        true => Ok(entry.code),
+        false => Err("that is an error, and errors cannot be left standing; warnings begin with W".to_owned()),
+    }
 }
 
 /// What to do.
@@ -340,6 +359,9 @@ pub struct CompareArgs {
     /// As JSON
     #[arg(long)]
     pub json: bool,
+    /// Print nothing: the exit code tells
+    #[arg(short, long, conflicts_with_all = ["verbose", "json"])]
+    pub quiet: bool,
 }
 
 const EXPLAIN_EXAMPLES: &str = "\

@@ -53,7 +53,7 @@ pub fn told(args: &SceneArgs, desc: &SceneDesc, range: Option<(u32, u32)>, shell
         return Err(Failure::WrongScene);
     }
     let looked_at = if looked < all { format!(" ({looked} looked at)") } else { String::new() };
-    let warnings = warned.iter().map(|frame| frame.diagnostics.len()).sum();
+    let warnings = warned.iter().map(|frame| shell.count(&frame.diagnostics)).sum();
     Ok(Told { count: Some(format!("{}{looked_at}", counted(all, "frame"))), warnings })
 }
 

@@ -97,6 +97,7 @@ fn without_more(command: &Command) -> String {
 pub fn command() -> Command {
     MORE.into_iter()
         .fold(Cli::command(), |cli, name| cli.mut_subcommand(name, |command| command.hide(true)))
+        .mut_arg("allow", |arg| arg.hide(true))
         .mut_subcommands(|command| command.help_template(TEMPLATE))
         .mut_subcommand("golden", |golden| {
             golden.help_template(TEMPLATE_OF_COMMANDS).mut_subcommands(|command| command.help_template(TEMPLATE))

@@ -53,6 +53,8 @@ pub fn main() -> ExitCode {
         Command::Render(args) => args.quiet,
         Command::Merge(args) => args.quiet,
         Command::Repro(args) => args.quiet,
+        Command::Check(args) => args.quiet,
+        Command::Compare(args) => args.quiet,
         _ => false,
     };
     let verbosity = match (quiet, cli.verbose) {
@@ -60,7 +62,7 @@ pub fn main() -> ExitCode {
         (false, false) => Verbosity::Normal,
         (false, true) => Verbosity::Verbose,
     };
-    let shell = Shell::new(cli.color, verbosity);
+    let shell = Shell::new(cli.color, verbosity, cli.allow);
     commands::run(&cli.command, &shell, started).unwrap_or_else(|failure| {
         if let Failure::Wrong(error) | Failure::CouldNot(error) = &failure {
             shell.error(error);

@@ -85,7 +85,7 @@ fn told_of(args: &SceneArgs, loaded: Result<Loaded, LoadError>, shell: &Shell) -
         let (objects, lights) = (counted(scene.objects.len(), "object"), counted(scene.lights.len(), "light"));
         format!("read {source}: {objects}, {lights}")
     });
-    Ok((scene, warnings.len()))
+    Ok((scene, shell.count(&warnings)))
 }
 
 /// The same error with what is wrong with the files that the text names: all mistakes in one run.

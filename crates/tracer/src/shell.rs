@@ -27,6 +27,8 @@ pub struct Shell {
     terminal: bool,
     /// How much is said.
     pub verbosity: Verbosity,
+    /// Warnings of which nothing is said.
+    allowed: &'static [Code],
     /// Of a film: what was warned of already, and the frame at hand where it is not the first.
     told: Option<(&'static Told, Option<u32>)>,
 }
@@ -44,8 +46,9 @@ pub fn sarif(done: bool) -> String {
 type Told = Mutex<HashSet<(Code, Span)>>;
 
 impl Shell {
-    /// Colours as asked for; automatically they are there on a terminal that can, unless NO_COLOR is set.
-    pub fn new(color: When, verbosity: Verbosity) -> Self {
+    /// Colours as asked for; automatically they are there on a terminal that can, unless NO_COLOR is set. Of warnings of
+    /// the allowed codes nothing is said.
+    pub fn new(color: When, verbosity: Verbosity, allowed: Vec<Code>) -> Self {
         let terminal = std::io::stderr().is_terminal();
         let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
@@ -54,7 +57,9 @@ impl Shell {
             When::Always => true,
             When::Never => false,
         };
-        Shell { color, terminal: terminal && !dumb, verbosity, told: None }
+        // As long as the process.
+        let allowed = Vec::leak(allowed);
+        Shell { color, terminal: terminal && !dumb, verbosity, allowed, told: None }
     }
 
     /// The same, but silent about warnings.
@@ -125,9 +130,15 @@ impl Shell {
         self.say(&format!("{on}error{off}: {error:#}"));
     }
 
+    /// How many warnings these are, but for those of which nothing is said.
+    pub fn count(&self, warnings: &[Diagnostic]) -> usize {
+        warnings.iter().filter(|warning| !self.allowed.contains(&warning.code)).count()
+    }
+
     /// Prints diagnostics (quiet: errors only) and, for people, how many there are.
     pub fn diagnostics(&self, diagnostics: &[Diagnostic], sources: &[Source], form: DiagnosticsForm) {
         let mut shown = diagnostics.to_vec();
+        shown.retain(|diagnostic| !self.allowed.contains(&diagnostic.code));
         if self.verbosity == Verbosity::Quiet {
             shown.retain(|diagnostic| diagnostic.severity == Severity::Error);
         }

@@ -291,6 +291,30 @@ impl Accel {
         self.coplanar.as_ref().map(Coplanar::shape_offsets).filter(|offsets| !offsets.is_empty())
     }
 
+    /// Whether surfaces lie in one plane and overlap anywhere.
+    pub fn has_coplanar(&self) -> bool {
+        self.coplanar.is_some()
+    }
+
+    /// How far rays end before a primitive at least: 0 but where it lies in one plane with others and they overlap.
+    pub fn coplanar_offset(&self, primitive: u32) -> f32 {
+        self.coplanar.as_ref().map_or(0.0, |coplanar| coplanar.offset(primitive))
+    }
+
+    /// Whether something else is met in place of some part of a primitive, in whose plane it lies.
+    pub fn is_covered(&self, primitive: u32, instance: u32) -> bool {
+        self.coplanar.as_ref().is_some_and(|coplanar| coplanar.is_covered(primitive, instance))
+    }
+
+    /// Whether that is so where one of some rays comes to the `target`, a primitive and its instance, at t; of a curved
+    /// shape t may be that of a plane so far beside its own.
+    ///
+    /// # Panics
+    /// If the index is beyond a slice.
+    pub fn is_covered_at(&self, target: (u32, u32), rays: &Rays, ray: usize, t: f32, slack: f32) -> bool {
+        self.coplanar.as_ref().is_some_and(|coplanar| coplanar.is_covered_at(target, rays, ray, t, slack))
+    }
+
     /// Whether a primitive lies in a plane without an end.
     pub fn lies_in(&self, plane: u32, primitive: u32, instance: u32) -> bool {
         self.coplanar.as_ref().is_some_and(|coplanar| coplanar.lies_in(plane, primitive, instance))

@@ -1,5 +1,6 @@
-//! How much of their light lamps have whose points shine unlike each other: what chooses between lights, and who sends
-//! photons, goes by it. It need not be exact, since what is chosen seldom counts more.
+//! What is known of lamps only when all else of a scene stands: how far before them rays end where something lies in
+//! their plane, and how much of their light those have whose points shine unlike each other. What chooses between
+//! lights, and who sends photons, goes by the latter, which need not be exact, since what is chosen seldom counts more.
 
 use super::stages::lights::{curved, share_towards};
 use crate::lanes::{ArrayF, ArrayU, Bits, Lanes};
@@ -19,15 +20,16 @@ const MOST_POINTS: usize = 64;
 /// So many are looked at in all, about.
 const ALL_POINTS: usize = 1 << 19;
 
-/// Finds out which lights of a scene shine unevenly, and about how much: from then on its tables know. Without such
-/// lights they stay as they are.
+/// Finds out which lights of a scene lie in one plane with others, which shine unevenly, and about how much: from then
+/// on its tables know. Without such lights they stay as they are.
 pub fn measure(scene: &mut Scene) {
+    keep_off(scene);
     let Some(mut glow) = Glow::even(scene) else { return };
     let count = scene.lights.len();
     scene.tables.lights.glow = Some(Arc::new(glow.clone()));
     let points = (ALL_POINTS / count.max(1)).clamp(4, MOST_POINTS);
-    let of_light = |k: usize| match glow.texture[k] {
-        0 => 1.0,
+    let of_light = |k: usize| match [glow.texture[k], glow.covered[k]] {
+        [0, 0] => 1.0,
         _ => share(scene, k, points) as f32,
     };
     glow.share = (0..count).into_par_iter().map(of_light).collect();
@@ -35,7 +37,25 @@ pub fn measure(scene: &mut Scene) {
     scene.tables.lights = LightTable::with_glow(&scene.lights, &scene.spheres, environment, Some(Arc::new(glow)));
 }
 
-/// [`LEAST`] + (1 - [`LEAST`]) m, m the mean over so many points of the light's texture, channels by what they shine.
+/// Has rays to lamps end, and photons start, before what lies in one plane with them and overlaps them.
+fn keep_off(scene: &mut Scene) {
+    let Some(accel) = scene.accel.clone().filter(|accel| accel.has_coplanar()) else { return };
+    let mut offsets = vec![0f32; scene.lights.len()];
+    scene.surfaces_of_lights(|light, _, primitive, _| {
+        if let Some(offset) = offsets.get_mut(light as usize) {
+            *offset = offset.max(accel.coplanar_offset(primitive));
+        }
+    });
+    if offsets.iter().all(|&offset| offset == 0.0) {
+        return;
+    }
+    scene.lights.iter_mut().zip(offsets).for_each(|(light, offset)| light.keep_off(offset.into()));
+    let environment = scene.tables.lights.environment.clone();
+    scene.tables.lights = LightTable::new(&scene.lights, &scene.spheres, environment);
+}
+
+/// [`LEAST`] + (1 - [`LEAST`]) m, m the mean over so many points of the share that they have, channels by what they
+/// shine.
 fn share(scene: &Scene, light: usize, points: usize) -> f64 {
     let radiance = scene.lights[light].radiance();
     let (mut sum, mut all) = (0.0, 0.0);

@@ -1,4 +1,5 @@
-//! Lamps of which some points shine more than others, by a texture.
+//! Lamps of which some points shine more than others: by a texture, or since something else in their plane is met in
+//! place of them.
 
 use super::{NONE, Scene};
 
@@ -13,48 +14,62 @@ pub struct Glow {
     pub primitive: Vec<u32>,
     /// Its instance, or [`NONE`].
     pub instance: Vec<u32>,
+    /// 1 where something that lies in the light's plane is met in place of some part of it ([`crate::bvh`]), which
+    /// gives no light then; else 0.
+    pub covered: Vec<u32>,
     /// How much of its radiance a light has, on average, about: what chooses between lights goes by it. Never zero.
     pub share: Vec<f32>,
 }
 
 impl Glow {
-    /// Of a scene, as if its textures took nothing away; `None` where all lights shine evenly.
+    /// Of a scene, as if nothing took light away; `None` where all lights shine evenly.
     pub fn even(scene: &Scene) -> Option<Self> {
         let of_material = &scene.tables.materials.glow;
-        if of_material.is_empty() {
+        let accel = scene.accel.as_deref().filter(|accel| accel.has_coplanar());
+        if of_material.is_empty() && accel.is_none() {
             return None;
         }
         let count = scene.lights.len();
         // Look-ups read whole registers.
         let column = |fill: u32| vec![fill; count.max(16)];
         let share = vec![1.0; count];
-        let mut glow = Glow { texture: column(0), primitive: column(0), instance: column(NONE), share };
-        let mut note = |light: u32, material: u32, primitive: u32, instance: u32| {
+        let mut glow =
+            Glow { texture: column(0), primitive: column(0), instance: column(NONE), covered: column(0), share };
+        scene.surfaces_of_lights(|light, material, primitive, instance| {
             let k = light as usize;
             if k < count {
                 glow.texture[k] = of_material.get(material as usize).copied().unwrap_or(0);
                 glow.primitive[k] = primitive;
                 glow.instance[k] = instance;
+                let shines = scene.lights[k].radiance() != [0.0; 3];
+                let is_covered = accel.is_some_and(|accel| shines && accel.is_covered(primitive, instance));
+                glow.covered[k] |= u32::from(is_covered);
             }
-        };
-        for (id, sphere) in (0..).zip(scene.spheres.iter()) {
-            note(sphere.light, sphere.material, id, NONE);
+        });
+        let is_uneven = glow.texture.iter().chain(&glow.covered).any(|&number| number != 0);
+        is_uneven.then_some(glow)
+    }
+}
+
+impl Scene {
+    /// Tells of all surfaces: of each the light that it is, or none of [`Scene::lights`], its material, its primitive,
+    /// and its instance or [`NONE`]. Of two triangles that are one light the first comes last.
+    pub fn surfaces_of_lights(&self, mut tell: impl FnMut(u32, u32, u32, u32)) {
+        for (id, sphere) in (0..).zip(self.spheres.iter()) {
+            tell(sphere.light, sphere.material, id, NONE);
         }
-        for (id, shape) in (scene.spheres.len() as u32..).zip(scene.shapes.iter()) {
-            note(shape.light, shape.material, id, NONE);
+        for (id, shape) in (self.spheres.len() as u32..).zip(self.shapes.iter()) {
+            tell(shape.light, shape.material, id, NONE);
         }
-        let (first, triangles) = (scene.tables.loose(), &scene.triangles);
-        for (number, instance) in (0..).zip(scene.instances.iter()) {
-            let mesh = scene.meshes[instance.mesh as usize];
-            // From the last on, so that of two triangles with one light the first stays.
+        let (first, triangles) = (self.tables.loose(), &self.triangles);
+        for (number, instance) in (0..).zip(self.instances.iter()) {
+            let mesh = self.meshes[instance.mesh as usize];
             for k in (mesh.first_triangle..mesh.first_triangle + mesh.triangle_count).rev() {
                 let own = triangles.material[k as usize];
                 let material = if instance.material == NONE { own } else { instance.material };
                 let light = triangles.light.get(k as usize).copied().unwrap_or(NONE);
-                note(light, material, first + k, number);
+                tell(light, material, first + k, number);
             }
         }
-        let is_uneven = glow.texture.iter().any(|&number| number != 0);
-        is_uneven.then_some(glow)
     }
 }

@@ -37,6 +37,9 @@ pub struct FlatLight {
     pub radiance: [f64; 3],
     /// It shines to the other side, too.
     pub two_sided: bool,
+    /// Rays start and end so far off its plane at least: what lies in its plane may be so far before it
+    /// ([`crate::bvh::Accel::coplanar_offset`]).
+    pub offset: f64,
 }
 
 /// A curved shape that shines, in render space.
@@ -52,6 +55,8 @@ pub struct CurvedLight {
     pub radiance: [f64; 3],
     /// It shines inwards, or to the other side, too.
     pub two_sided: bool,
+    /// As [`FlatLight::offset`], of its flat parts.
+    pub offset: f64,
 }
 
 impl CurvedLight {
@@ -85,6 +90,16 @@ impl Light {
             Light::Sphere { radiance, .. } => *radiance = [0.0; 3],
             Light::Curved(curved) => curved.radiance = [0.0; 3],
             Light::Parallelogram(flat) | Light::Triangle(flat) => flat.radiance = [0.0; 3],
+        }
+    }
+
+    /// Has rays start and end so far off its flat parts at least.
+    pub fn keep_off(&mut self, least: f64) {
+        match self {
+            Light::Sphere { .. } => {}
+            Light::Curved(CurvedLight { offset, .. })
+            | Light::Parallelogram(FlatLight { offset, .. })
+            | Light::Triangle(FlatLight { offset, .. }) => *offset = offset.max(least),
         }
     }
 
@@ -280,7 +295,7 @@ impl LightTable {
             Some(Self::flat_row(flat, light.area(spheres), triangle))
         });
         let curved = lights.iter().filter_map(Light::curved).map(|curved| CurvedRow {
-            lamp: Lamp::new(&curved.unit, &curved.placement, curved.two_sided),
+            lamp: Lamp::new(&curved.unit, &curved.placement, curved.two_sided).keep_off(curved.offset),
             radiance: curved.radiance.map(|x| x as f32),
             primitive: spheres.len() as u32 + curved.shape,
             two_sided: curved.two_sided,
@@ -363,12 +378,12 @@ impl LightTable {
     }
 
     /// How far off its plane rays start and end, and the bits of a flat light: twice the bound of a hit's error there
-    /// (see `stages::surface`), so that they do not meet it.
+    /// (see `stages::surface`), so that they do not meet it, and as far as it says itself.
     pub fn offset_and_flags(flat: &FlatLight, triangle: u32) -> (f32, u32) {
         let [a, b] = flat.edges;
         let corners = [flat.corner, flat.corner + a, flat.corner + b, flat.corner + a + b];
         let magnitude = corners.iter().map(|c| c.abs().element_sum()).fold(0.0, f64::max);
-        let offset = magnitude * 7.0 * f64::from(f32::EPSILON);
+        let offset = flat.offset.max(magnitude * 7.0 * f64::from(f32::EPSILON));
         (offset as f32, Self::PLANE | triangle | if flat.two_sided { Self::TWO_SIDED } else { 0 })
     }
 }

@@ -22,7 +22,7 @@ export async function wait(what, name) {
   const began = Date.now();
   for (;;) {
     try {
-      if (what()) return;
+      if (await what()) return;
     } catch {
       // Not yet.
     }

@@ -13,6 +13,7 @@ use super::{Failure, Fault, MAX_BYTES, MAX_DEPTH, MOMENT, Named, Value};
 use crate::codes;
 use crate::codes::Code;
 use crate::suggest;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Reckons a text; `name` tells what a name stands for.
@@ -424,7 +425,10 @@ impl Parser<'_, '_> {
         }
         let at = self.at..self.at + end;
         self.at = at.end;
-        match self.text[at.clone()].replace('_', "").parse::<f64>() {
+        let text = &self.text[at.clone()];
+        // Of a thing that comes a million times nothing is copied.
+        let plain = if text.contains('_') { Cow::Owned(text.replace('_', "")) } else { Cow::Borrowed(text) };
+        match plain.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(Value::Number(number)),
             _ => Err(self.syntax(at, "this is no number", "a number such as 2, 0.5 or 1e3")),
         }

@@ -83,6 +83,9 @@ fn block(out: &mut String, open: &str, entries: &[Entry], close: &str, depth: us
         for comment in before {
             comment_line(out, comment, depth + 1);
         }
+        if entry.value == Form::Absent {
+            continue;
+        }
         indent(out, depth + 1);
         let name = key(&entry.name, open);
         out.push_str(&name);

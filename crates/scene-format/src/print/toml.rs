@@ -10,7 +10,7 @@ pub(crate) fn toml(scene: &Form, before: &[String], after: &[String]) -> String 
     blank(&mut out);
     let Form::Struct { fields, .. } = scene else { return out };
     // Plain values come first: after a header they would belong to it.
-    for entry in fields.iter().filter(|entry| !is_table(&entry.value)) {
+    for entry in fields.iter().filter(|entry| !is_table(&entry.value) && entry.value != Form::Absent) {
         line(&mut out, entry);
     }
     for entry in fields.iter().filter(|entry| is_table(&entry.value)) {
@@ -21,6 +21,9 @@ pub(crate) fn toml(scene: &Form, before: &[String], after: &[String]) -> String 
                     blank(&mut out);
                     comments(&mut out, after_blank(std::mem::take(&mut before)));
                     comments(&mut out, after_blank(&item.before));
+                    if item.value == Form::Absent {
+                        continue;
+                    }
                     out.push_str(&format!("[[{}]]", entry.name));
                     end_line(&mut out, item.after.as_deref());
                     body(&mut out, &entry.name, &item.value);
@@ -38,7 +41,8 @@ pub(crate) fn toml(scene: &Form, before: &[String], after: &[String]) -> String 
             }
         }
     }
-    if !after.is_empty() {
+    let last = fields.iter().filter(|entry| entry.value == Form::Absent).map(|entry| entry.before.as_slice());
+    for after in last.chain([after]).filter(|after| !after.is_empty()) {
         blank(&mut out);
         comments(&mut out, after_blank(after));
     }
@@ -110,6 +114,9 @@ fn line(out: &mut String, entry: &Entry) {
     let at_head =
         is_first || out.ends_with("\n\n") || out.lines().next_back().is_some_and(|line| line.starts_with('['));
     comments(out, if at_head { after_blank(&entry.before) } else { &entry.before });
+    if entry.value == Form::Absent {
+        return;
+    }
     let mut inner = Vec::new();
     hoisted(&entry.value, false, &mut inner);
     comments(out, &inner);
@@ -128,6 +135,9 @@ fn line(out: &mut String, entry: &Entry) {
                 for comment in &inner {
                     out.push_str(if comment == BLANK_LINE { "" } else { "    " });
                     comments(out, std::slice::from_ref(comment));
+                }
+                if item.value == Form::Absent {
+                    continue;
                 }
                 out.push_str("    ");
                 inline(out, &item.value);
@@ -197,6 +207,11 @@ pub(crate) fn key(name: &str) -> String {
     if bare { name.to_owned() } else { text(name) }
 }
 
+/// The entries that are more than comments.
+fn there(entries: &[Entry]) -> impl Iterator<Item = &Entry> {
+    entries.iter().filter(|entry| entry.value != Form::Absent)
+}
+
 fn inline(out: &mut String, form: &Form) {
     match form {
         Form::Absent => {}
@@ -217,7 +232,7 @@ fn inline(out: &mut String, form: &Form) {
         }
         Form::List(entries) => {
             out.push('[');
-            for (index, entry) in entries.iter().enumerate() {
+            for (index, entry) in there(entries).enumerate() {
                 if index > 0 {
                     out.push_str(", ");
                 }
@@ -226,11 +241,11 @@ fn inline(out: &mut String, form: &Form) {
             out.push(']');
         }
         Form::Map(entries) | Form::Struct { fields: entries, .. } => {
-            if entries.is_empty() {
+            if there(entries).next().is_none() {
                 return out.push_str("{}");
             }
             out.push_str("{ ");
-            for (index, entry) in entries.iter().enumerate() {
+            for (index, entry) in there(entries).enumerate() {
                 if index > 0 {
                     out.push_str(", ");
                 }

@@ -11,6 +11,7 @@ use scene_format::desc::{
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
+use std::sync::Arc;
 use tracer_kernels::scene::{CurvedLight, Frame, NONE, Shape, Sphere};
 use tracer_kernels::shapes::UnitShape;
 use tracer_mesh::shapes::of_object;
@@ -108,14 +109,12 @@ pub struct Curved {
     pub unit: UnitShape,
     /// From there to the world, one per copy.
     pub maps: Vec<DAffine3>,
-    /// From there to where it is before its transforms.
-    local: DAffine3,
+    /// From there to where it is before its transforms; `None` where it has none, and no copies.
+    local: Option<Box<DAffine3>>,
     /// Index of its material.
     pub material: u32,
     /// How it shines, where it does.
-    pub emissive: Option<Emissive>,
-    /// It is nothing but a sphere where it is written.
-    plain: bool,
+    pub emissive: Option<Arc<Emissive>>,
 }
 
 /// Finds materials and places of the objects with curved sides, in order.
@@ -152,7 +151,8 @@ pub fn load(
             diagnostics.push(cannot_shine(&format!("a {noun}"), span));
             emissive = None;
         }
-        all.push(Curved { number, unit, maps, local, material, emissive, plain });
+        let local = (!plain).then(|| Box::new(local));
+        all.push(Curved { number, unit, maps, local, material, emissive });
     }
     all
 }
@@ -236,12 +236,12 @@ impl Curved {
         mut written: Option<&mut Vec<DAffine3>>,
     ) {
         let radiances = self.radiances();
-        let from_written = self.local.inverse();
+        let from_written = self.local.as_ref().map(|local| local.inverse());
         for (copy, map) in self.maps.iter().enumerate() {
             let mut coordinates = 0;
-            if let Some(written) = written.as_mut().filter(|_| !self.plain) {
+            if let (Some(written), Some(from_written)) = (written.as_mut(), &from_written) {
                 coordinates = written.len() as u32;
-                written.push(*map * from_written);
+                written.push(*map * *from_written);
             }
             let (material, object) = (self.material, self.number);
             let two_sided = self.emissive.as_ref().is_some_and(|emissive| emissive.two_sided);
@@ -256,7 +256,7 @@ impl Curved {
                 let mut light = NONE;
                 if let Some(&radiance) = radiances.get(copy) {
                     light = lamps.len() as u32;
-                    lamps.push(CurvedLight { shape, unit, placement, radiance, two_sided });
+                    lamps.push(CurvedLight { shape, unit, placement, radiance, two_sided, offset: 0.0 });
                 }
                 shapes.push(Shape { unit, placement, material, light, object, coordinates });
             }

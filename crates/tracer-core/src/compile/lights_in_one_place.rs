@@ -1,7 +1,8 @@
 //! Flat lamps in one place: one of them is seen wherever all are, the first ([`tracer_kernels::bvh`]), so that the
-//! others give no light either.
+//! others give no light either, and need not be asked for it.
 //!
-//! Lamps that lie in one plane and overlap only in part still all shine, each with all of its area.
+//! Of lamps that overlap only in part, samples of points where another one is seen bring nothing
+//! ([`tracer_kernels::scene::Glow`]).
 
 use glam::DVec3;
 use std::collections::BTreeSet;

@@ -93,7 +93,7 @@ pub struct MaterialBuilder<'a> {
     desc: &'a SceneDesc,
     materials: Vec<Material>,
     /// Those that shine, and how.
-    emissive: BTreeMap<u32, Emissive>,
+    emissive: BTreeMap<u32, Arc<Emissive>>,
     /// Index of each named material in `materials`.
     named: BTreeMap<&'a str, u32>,
     default: Option<u32>,
@@ -172,7 +172,7 @@ impl<'a> MaterialBuilder<'a> {
     }
 
     /// How a material shines, if it does.
-    pub fn emissive(&self, material: u32) -> Option<&Emissive> {
+    pub fn emissive(&self, material: u32) -> Option<&Arc<Emissive>> {
         self.emissive.get(&material)
     }
 
@@ -193,7 +193,7 @@ impl<'a> MaterialBuilder<'a> {
         }
         if let Some(emissive) = material.shines() {
             self.faults.extend(emissive.fault());
-            self.emissive.insert(self.materials.len() as u32, emissive.clone());
+            self.emissive.insert(self.materials.len() as u32, Arc::new(emissive.clone()));
         }
         let compiled = self.compiled(material, base);
         self.materials.push(compiled);

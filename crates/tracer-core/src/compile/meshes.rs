@@ -29,7 +29,7 @@ pub struct Assigned {
     /// Per object: one for all of it, or [`NONE`] for what its file says per triangle.
     of_object: Vec<u32>,
     /// Per object: how all of it shines, where it does.
-    emissive: Vec<Option<Emissive>>,
+    emissive: Vec<Option<Arc<Emissive>>>,
     /// Per file: materials of its triangles' material indices, with the default last; empty where no object asks for
     /// them.
     of_file: Vec<Vec<u32>>,
@@ -178,7 +178,7 @@ impl Placed {
 /// What the copies of an object shine, per copy; empty where it does not. L = P / (pi A), or I / A. Of an object that
 /// shines by materials of its file, what each of these shines.
 pub fn radiances(loaded: &Loaded, placed: &Placed, assigned: &Assigned) -> Vec<Vec<[f64; 3]>> {
-    let of_object = |(object, emissive): (usize, &Option<Emissive>)| {
+    let of_object = |(object, emissive): (usize, &Option<Arc<Emissive>>)| {
         let Some(file) = loaded.file_of_object[object] else { return Vec::new() };
         let Some(emissive) = emissive else {
             // Copies are alike.
@@ -239,11 +239,14 @@ struct Variant {
 /// to 35 MB (docs/performance.md: two to three million triangles a second, 80 to 130 bytes each).
 const FLATTENED_TRIANGLES: usize = 1 << 18;
 const FLATTENED_COPIES: usize = 1024;
+/// So many boxes at most have triangles of their own: that takes 1.3 GB of a million, which are three times as fast.
+const FLATTENED_BOXES: usize = 1 << 18;
 
 /// Whether each copy of this object has its own triangles; `copies`: those of all objects with this mesh.
-fn flattened(instances: Instances, copies: usize, triangles: usize) -> bool {
+fn flattened(object: &Polygonal<'_>, copies: usize, triangles: usize) -> bool {
     copies == 1
-        || match instances {
+        || match object.instances {
+            Instances::Auto if matches!(object.geometry, Geometry::Unit(_)) => copies <= FLATTENED_BOXES,
             Instances::Auto => copies <= FLATTENED_COPIES && copies.saturating_mul(triangles) <= FLATTENED_TRIANGLES,
             Instances::Always => false,
             Instances::Never => true,
@@ -314,7 +317,7 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
         if let Some(written) = written.as_mut() {
             built.add_coordinates(polygonal, &placed.maps[object], written);
         }
-        let flat = flattened(polygonal.instances, copies[&variant], data.triangles.len());
+        let flat = flattened(polygonal, copies[&variant], data.triangles.len());
         let shines_in_part = assigned.own_radiance(object, variant.file).next().is_some();
         // Copies that share their triangles are no lights: of a thousand meshes of which a lamp is a part, each would
         // have to have all its triangles.
@@ -428,11 +431,12 @@ impl Built {
         let t = &self.triangles;
         let shines = |triangle: usize| t.light.get(triangle).is_some_and(|&light| light != NONE);
         let of_triangle = |(triangle, &material)| if shines(triangle) { 0 } else { of_material(material) };
+        let of_shape = |shape: &Shape| if shape.light == NONE { of_material(shape.material) } else { 0 };
         let of_instance = |instance: &Instance| (instance.material != NONE).then(|| of_material(instance.material));
         bvh::Ranks {
             triangles: t.material.iter().enumerate().map(of_triangle).collect(),
             instances: self.instances.iter().map(of_instance).collect(),
-            shapes: shapes.iter().map(|shape| of_material(shape.material)).collect(),
+            shapes: shapes.iter().map(of_shape).collect(),
             materials: (0..materials.len() as u32).any(|k| of_material(k) == bvh::TRANSMITS).then(|| bvh::Materials {
                 triangles: t.material.clone(),
                 instances: self.instances.iter().map(|i| (i.material != NONE).then_some(i.material)).collect(),
@@ -561,7 +565,8 @@ impl Built {
                     (true, true) => [c, a, b],
                 };
                 let two_sided = shine.two_sided;
-                let flat = FlatLight { corner, edges: [first - corner, second - corner], radiance, two_sided };
+                let edges = [first - corner, second - corner];
+                let flat = FlatLight { corner, edges, radiance, two_sided, offset: 0.0 };
                 self.lights.push(if shine.quads { Light::Parallelogram(flat) } else { Light::Triangle(flat) });
             }
             t.light.push(first + self.lights.len() as u32 - 1);

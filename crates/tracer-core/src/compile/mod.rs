@@ -254,7 +254,8 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     lights_in_one_place::keep_first(&mut lights);
     diagnostics.extend(built.unlit.iter().map(|&span| unmeant::unlit(span)));
     let color_table = vertex_colors::table(&programs, &loaded, &built);
-    drop((loaded, placed));
+    // The tree is what takes the most: what was made of the description is there no more.
+    drop((loaded, placed, assigned, mesh_radiances, curved, solid_objects));
     let material_table = MaterialTable::new(&materials, uses.len() as u32, (uses.len() + patterns.len()) as u32);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
     let plane_table = PlaneTable::new(&shapes, spheres.len() as u32);

@@ -75,8 +75,11 @@ pub fn polygonal(desc: &SceneDesc) -> impl Iterator<Item = Polygonal<'_>> {
                 material: object.value.material(),
                 transform: object.value.transform(),
                 placements: object.value.placements(),
-                // As many triangles as an instance takes memory.
-                instances: Instances::Never,
+                instances: match shape {
+                    // As many triangles as an instance takes memory.
+                    UnitShape::Square => Instances::Never,
+                    UnitShape::Cube => Instances::Auto,
+                },
                 shading: Shading::Flat,
                 span: object.span,
                 part: None,

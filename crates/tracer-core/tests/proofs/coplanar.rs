@@ -143,7 +143,10 @@ fn the_first_is_seen_wherever_it_is() {
     }
 }
 
-/// A lamp in the plane of the ceiling lights the floor as one without a ceiling, and is seen whole.
+/// A lamp in the plane of the ceiling lights the floor as one without a ceiling, and is seen whole. Rays to it end before
+/// all that may lie in its plane by rounding, by some 16 units in the last place of the farthest corner, so that it
+/// lights as if it hung lower by o: at h = 2 above the floor and a distance of d the floor gets h^2 / d^4 of it, of which
+/// that is at most 2 o / h + 4 o h / d^2 <= 6 o / h.
 #[test]
 fn a_lamp_let_into_the_ceiling_shines() {
     let emissive = Material::Emissive(Box::new(Emissive {
@@ -152,7 +155,7 @@ fn a_lamp_let_into_the_ceiling_shines() {
         two_sided: false,
         group: LightGroup::default(),
     }));
-    for turn in [0.0, 33.0] {
+    for (turn, wide) in [(0.0, 7.0), (33.0, 7.0), (0.0, 3000.0), (33.0, 3000.0)] {
         let attitude = Attitude { axis: DVec3::new(0.6, 0.0, 0.8), degrees: turn, place: DVec3::new(0.1, 0.2, 0.3) };
         let down = |mut steps: Vec<Transform>| {
             let over = Transform::Rotate { axis: [1.0, 0.0, 0.0], degrees: 180.0, about: Some(Box::new([0.0; 3])) };
@@ -161,8 +164,10 @@ fn a_lamp_let_into_the_ceiling_shines() {
         };
         let up = [0.0, 2.0, 0.0];
         let lamp = rectangle(1.3, emissive.clone(), down(attitude.steps(25.0, up)));
-        let ceiling = rectangle(7.0, diffuse([0.5; 3]), down(attitude.steps(0.0, up)));
+        let ceiling = rectangle(wide, diffuse([0.5; 3]), down(attitude.steps(0.0, up)));
         let floor = rectangle(60.0, diffuse([0.5; 3]), attitude.steps(10.0, [0.0; 3]));
+        let lower = 16.0 * wide / 16_777_216.0;
+        let tolerance = f64::max(1e-4, 6.0 * lower / 2.0);
         let seen = |objects: Vec<Object>, eye: DVec3, look_at: DVec3| {
             let desc = scene(SIZE, vec![], objects)
                 .camera(attitude.point(eye).to_array(), attitude.point(look_at).to_array(), 50.0)
@@ -175,7 +180,10 @@ fn a_lamp_let_into_the_ceiling_shines() {
         let alone = seen(vec![lamp.clone(), floor.clone()], eye, below);
         let with = seen(vec![ceiling.clone(), floor.clone(), lamp.clone()], eye, below);
         for (k, (a, b)) in alone.iter().zip(&with).enumerate() {
-            assert!((a[0] - b[0]).abs() <= 1e-4 * a[0], "turned by {turn}, pixel {k}: {b:?}, not {a:?}");
+            assert!(
+                (a[0] - b[0]).abs() <= tolerance * a[0],
+                "turned by {turn}, {wide} wide, pixel {k}: {b:?}, not {a:?}"
+            );
         }
         assert!(alone.iter().filter(|c| c[0] > 0.0).count() > 900);
         let eye = DVec3::new(0.05, 1.4, 0.02);
@@ -339,6 +347,11 @@ fn glass_that_touches_glass_is_invisible_in_a_white_furnace() {
             ("three blocks", vec![half(-0.25, flint, false), half(0.25, water, false), half(0.75, flint, false)]),
             ("a cylinder on a block", vec![half(-0.25, flint, false), round("above", water)]),
             ("cylinders", vec![round("below", flint), round("above", water)]),
+            // What is in one place is one body, however many there are and whatever it touches.
+            ("two in one place", vec![half(-0.25, flint, false); 2]),
+            ("two on water", [vec![half(-0.25, water, false)], vec![half(0.25, flint, false); 2]].concat()),
+            ("nine on water", [vec![half(-0.25, water, false)], vec![half(0.25, flint, false); 9]].concat()),
+            ("nine under water", [vec![half(-0.25, flint, false); 9], vec![half(0.25, water, false)]].concat()),
         ];
         for (name, objects) in stacks {
             for eye in [DVec3::new(0.1, 6.0, 0.05), DVec3::new(0.1, -6.0, 0.05), DVec3::new(5.0, 1.9, 2.0)] {
@@ -354,6 +367,10 @@ fn glass_that_touches_glass_is_invisible_in_a_white_furnace() {
                 let white = white.count() as f64 / f64::from(SIZE * SIZE);
                 let mean = (0..SIZE * SIZE).map(|k| film.radiance(k % SIZE, k / SIZE)[0]).sum::<f64>();
                 let mean = mean / f64::from(SIZE * SIZE);
+                if name.starts_with("PROBE") {
+                    println!("{name} from {eye}: {mean}, {white}");
+                    continue;
+                }
                 assert!(white > 0.97 && (mean - 1.0).abs() < 0.01, "{name} from {eye}: {mean}, {white} of the pixels");
             }
         }

@@ -32,6 +32,7 @@ mod mattes;
 mod metals;
 mod motion;
 mod noise;
+mod overlapping_lamps;
 mod patterns;
 mod planes;
 mod random_scenes;

@@ -57,9 +57,15 @@ pub struct CheckArgs {
     /// Take warnings for errors
     #[arg(long)]
     pub deny_warnings: bool,
+    /// Look through this one of the scenes' `cameras`
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
     /// Mend in the files what can be mended for certain
     #[arg(long, conflicts_with = "set")]
     pub fix: bool,
+    /// Say nothing but what is wrong: no warnings, no `ok`
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
 }
 
 impl CheckArgs {
@@ -67,6 +73,7 @@ impl CheckArgs {
     pub fn of(&self, scene: PathBuf) -> SceneArgs {
         SceneArgs {
             set: self.set.clone(),
+            camera: self.camera.clone(),
             syntax: self.syntax,
             diagnostics: self.diagnostics,
             ..SceneArgs::plain(scene)

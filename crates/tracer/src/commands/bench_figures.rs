@@ -40,9 +40,17 @@ const FIGURES: [Figure; 9] = [
 pub(super) fn run(args: &BenchFiguresArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     use_threads(args.threads)?;
     interrupt::listen(*shell)?;
+    let wanted = |figure: &&Figure| args.figures.is_empty() || args.figures.contains(&figure.number);
+    let scene = |figure: &Figure| args.scenes.join(format!("fig{}.ron", figure.number));
+    if let Some(missing) = FIGURES.iter().filter(wanted).map(scene).find(|scene| !scene.exists()) {
+        return Err(Failure::wrong(format!(
+            "there is no {}: the scenes of the report's figures are in the folder scenes of tracer's sources; run it \
+             there, or name that folder by --scenes",
+            missing.display()
+        )));
+    }
     let mut out = std::io::stdout().lock();
     writeln!(out, "{:<7} {:<34} {:>9}  the report (4 cores)", "figure", "plain path tracer", "here")?;
-    let wanted = |figure: &&Figure| args.figures.is_empty() || args.figures.contains(&figure.number);
     for figure in FIGURES.iter().filter(wanted) {
         let samples = args.samples.map_or(figure.samples, |most| most.min(figure.samples));
         let Some(seconds) = timed(figure, samples, args, shell)? else {

@@ -69,10 +69,12 @@ fn of_library(scene: &Path, syntax: Option<Syntax>) -> Result<Option<(Diagnostic
 fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure> {
     if let Some((diagnostics, sources)) = of_library(&scene, args.syntax.map(Syntax::from))? {
         shell.diagnostics(&diagnostics, &sources, args.diagnostics);
-        if diagnostics.iter().any(|fault| fault.severity == Severity::Error || args.deny_warnings) {
+        if diagnostics.iter().any(|fault| fault.severity == Severity::Error)
+            || args.deny_warnings && shell.count(&diagnostics) > 0
+        {
             return Err(Failure::WrongScene);
         }
-        if args.diagnostics == DiagnosticsForm::Text {
+        if args.diagnostics == DiagnosticsForm::Text && !args.quiet {
             writeln!(std::io::stdout().lock(), "{}: ok, to be included: nothing to render", scene.display())?;
         }
         return Ok(());
@@ -82,19 +84,20 @@ fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure>
     let scene = compile(&desc, args.diagnostics, Known::Nothing, shell)?;
     let frames = frames::told(&args_of_scene, &desc, None, shell)?;
     let name = desc.sources.first().map_or("", |source| source.name.as_str());
-    let warnings = warnings + scene.warnings.len() + frames.warnings;
+    let warnings = warnings + shell.count(&scene.warnings) + frames.warnings;
     if args.deny_warnings && warnings > 0 {
         if args.diagnostics == DiagnosticsForm::Text {
             shell.error(&anyhow::anyhow!("{name}: {}, denied by --deny-warnings", counted(warnings, "warning")));
         }
         return Err(Failure::WrongScene);
     }
-    if args.diagnostics == DiagnosticsForm::Text {
+    if args.diagnostics == DiagnosticsForm::Text && !args.quiet {
         let (objects, lights) =
             (counted(desc.objects.len(), "object"), counted(tracer_core::shining_objects(&scene), "light"));
         let frames = frames.count.map_or(String::new(), |frames| format!(", {frames}"));
         let cameras = args_of_scene
             .camera
+            .filter(|_| args.camera.is_none())
             .map_or(String::new(), |_| format!(", {} of which none is chosen", counted(desc.cameras.len(), "camera")));
         writeln!(std::io::stdout().lock(), "{name}: ok, {objects}, {lights}{frames}{cameras}")?;
     }

@@ -50,14 +50,21 @@ pub(super) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
         write(&map, Encoding::Png(Bits::Eight), &Place::File(path.clone()), &provenance)?;
     }
     let above: Vec<&Limit> = limits.iter().filter(|limit| limit.is_exceeded_by(&difference)).collect();
-    let mut out = std::io::stdout().lock();
-    if args.json {
-        writeln!(out, "{:#}", as_json(&difference, &above.iter().map(|limit| limit.name()).collect::<Vec<_>>()))?;
-    } else {
-        out.write_all(as_text(&difference, &above).as_bytes())?;
-    }
-    out.flush()?;
+    print(args, || match args.json {
+        true => format!("{:#}\n", as_json(&difference, &above.iter().map(|limit| limit.name()).collect::<Vec<_>>())),
+        false => as_text(&difference, &above),
+    })?;
     Ok(ExitCode::from(if above.is_empty() { exit::DONE } else { exit::FAILED }))
+}
+
+/// Prints what came of it, unless nothing is to be printed.
+pub(super) fn print(args: &CompareArgs, text: impl FnOnce() -> String) -> std::io::Result<()> {
+    if args.quiet {
+        return Ok(());
+    }
+    let mut out = std::io::stdout().lock();
+    out.write_all(text().as_bytes())?;
+    out.flush()
 }
 
 /// What `--fail-above` says.

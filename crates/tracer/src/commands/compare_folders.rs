@@ -1,12 +1,11 @@
 //! `tracer compare` of two folders: the pictures of the same names, a line each.
 
-use super::compare::{Limit, as_json, picture};
+use super::compare::{Limit, as_json, picture, print};
 use crate::args::CompareArgs;
 use crate::compare::{Difference, difference};
 use crate::failure::{Failure, exit};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -53,13 +52,10 @@ pub(super) fn run(args: &CompareArgs, limits: &[Limit]) -> Result<ExitCode, Fail
         };
         pairs.push((name.as_str(), pair));
     }
-    let mut out = std::io::stdout().lock();
-    if args.json {
-        writeln!(out, "{:#}", json!(pairs.iter().map(|(name, pair)| value(name, pair)).collect::<Vec<_>>()))?;
-    } else {
-        out.write_all(table(&pairs).as_bytes())?;
-    }
-    out.flush()?;
+    print(args, || match args.json {
+        true => format!("{:#}\n", json!(pairs.iter().map(|(name, pair)| value(name, pair)).collect::<Vec<_>>())),
+        false => table(&pairs),
+    })?;
     let passes = pairs.iter().all(|(_, pair)| pair.passes());
     Ok(ExitCode::from(if passes { exit::DONE } else { exit::FAILED }))
 }

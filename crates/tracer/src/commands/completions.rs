@@ -63,6 +63,10 @@ fn with_values(arg: Arg, command: &str) -> Arg {
         "format" if ["render", "merge", "slurm"].contains(&command) => {
             ["png", "exr", "hdr", "pfm"].map(str::to_owned).to_vec()
         }
+        "allow" => {
+            let codes = scene_format::codes::CODES.iter().map(|entry| entry.code.as_str().to_owned());
+            codes.filter(|code| code.starts_with('W')).collect()
+        }
         "code" if command == "explain" => {
             let codes = scene_format::codes::CODES.iter().map(|entry| entry.code.as_str().to_owned());
             scene_format::words().into_iter().chain(codes).collect()

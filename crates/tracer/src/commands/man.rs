@@ -3,7 +3,7 @@
 use crate::args::{Cli, ManArgs};
 use crate::failure::{Failure, exit};
 use crate::write::Provenance;
-use clap::CommandFactory;
+use clap::{Arg, ArgAction, CommandFactory};
 use std::io::{IsTerminal, Write};
 use std::process::{Command, ExitCode, Stdio};
 
@@ -19,10 +19,11 @@ pub(super) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
             Failure::wrong(format!("there is no command `{name}`; expected one of {}", names.join(", ")))
         })?,
     };
-    let mut page = Vec::new();
+    let (mut page, synopsis) = (Vec::new(), synopsis(&command));
     clap_mangen::Man::new(command).source(Provenance::SOFTWARE).manual("tracer").render(&mut page)?;
     // What stands behind the options are examples.
-    let page = String::from_utf8_lossy(&page).replace(".SH EXTRA", ".SH EXAMPLES") + SECTIONS;
+    let page =
+        with_synopsis(&String::from_utf8_lossy(&page), &synopsis).replace(".SH EXTRA", ".SH EXAMPLES") + SECTIONS;
     if std::io::stdout().is_terminal() && shown(&page) {
         return Ok(ExitCode::from(exit::DONE));
     }
@@ -30,6 +31,51 @@ pub(super) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
     out.write_all(page.as_bytes())?;
     out.flush()?;
     Ok(ExitCode::from(exit::DONE))
+}
+
+/// A page whose synopsis is this one: that of the library leaves out what options take.
+fn with_synopsis(page: &str, synopsis: &str) -> String {
+    const HEAD: &str = ".SH SYNOPSIS\n";
+    let Some((before, rest)) = page.split_once(HEAD) else { return page.to_owned() };
+    let after = rest.find(".SH ").map_or("", |at| &rest[at..]);
+    format!("{before}{HEAD}{synopsis}\n{after}")
+}
+
+/// How a command is written, all of it: `tracer check [--set PATH=VALUE]... SCENE...`.
+fn synopsis(command: &clap::Command) -> String {
+    let name = command.get_bin_name().unwrap_or_else(|| command.get_name());
+    let mut words = vec![format!("\\fB{}\\fR", escaped(name))];
+    let (positional, options): (Vec<&Arg>, Vec<&Arg>) =
+        command.get_arguments().filter(|arg| !arg.is_hide_set()).partition(|arg| arg.is_positional());
+    words.extend(options.into_iter().chain(positional).map(written));
+    if command.has_subcommands() {
+        words.push("\\fICOMMAND\\fR".to_owned());
+    }
+    words.join(" ")
+}
+
+/// How an argument is written.
+fn written(arg: &Arg) -> String {
+    let values: Vec<String> = arg.get_value_names().unwrap_or_default().iter().map(|name| escaped(name)).collect();
+    let values = format!("\\fI{}\\fR", values.join(" "));
+    let takes = arg.get_action().takes_values();
+    let name = match (arg.get_short(), arg.get_long()) {
+        _ if arg.is_positional() => values,
+        (Some(short), _) if takes => format!("\\fB\\-{short}\\fR {values}"),
+        (Some(short), _) => format!("\\fB\\-{short}\\fR"),
+        (None, Some(long)) if arg.is_require_equals_set() => format!("\\fB\\-\\-{}\\fR[={values}]", escaped(long)),
+        (None, Some(long)) if takes => format!("\\fB\\-\\-{}\\fR {values}", escaped(long)),
+        (None, long) => format!("\\fB\\-\\-{}\\fR", escaped(long.unwrap_or_default())),
+    };
+    let many = matches!(arg.get_action(), ArgAction::Append)
+        || arg.is_positional() && arg.get_num_args().is_some_and(|range| range.max_values() > 1);
+    let name = if arg.is_required_set() { name } else { format!("[{name}]") };
+    if many { name + "..." } else { name }
+}
+
+/// Hyphens as roff writes those that are typed.
+fn escaped(text: &str) -> String {
+    text.replace('\\', "\\e").replace('-', "\\-")
 }
 
 /// What all pages end with.

@@ -30,7 +30,9 @@ pub const COMMANDS: [&str; 20] = [
 fn version_and_help() {
     let sandbox = Sandbox::new();
     let version = sandbox.run(&["--version"]).ends(0).silent().out_text();
-    assert_eq!(version, concat!("tracer ", env!("CARGO_PKG_VERSION"), "\n"));
+    // A release that is built in a clone says of which commit.
+    let rest = version.strip_prefix(concat!("tracer ", env!("CARGO_PKG_VERSION"))).expect("the version");
+    assert!(rest == "\n" || rest.starts_with(" (") && rest.ends_with(")\n"), "{version}");
     let of_golden = ["run", "accept", "new"].map(|command| vec!["golden", command, "-h"]);
     let of_farm = ["slurm", "status", "cancel"].map(|command| vec!["farm", command, "-h"]);
     let of_all = COMMANDS.map(|command| vec![command, "-h"]).into_iter().chain([vec!["-h"]]);
@@ -78,6 +80,42 @@ fn check_takes_many_scenes() {
     sandbox.run(&["check", "odd.ron"]).ends(0).says(&["W0401"]);
     sandbox.run(&["check", "odd.ron", "--deny-warnings"]).ends(2).says(&["1 warning, denied by --deny-warnings"]);
     sandbox.run(&["check", "scene.ron", "--deny-warnings"]).ends(0).silent();
+}
+
+/// Warnings that somebody has weighed are said no more, and deny nothing.
+#[test]
+fn warnings_are_allowed_by_their_codes() {
+    let sandbox = Sandbox::new();
+    let spare = SCENE.replace("materials: {", "materials: { \"spare\": Diffuse(albedo: 0.5),");
+    sandbox.write("odd.ron", spare);
+    let all = sandbox.run(&["check", "odd.ron"]).ends(0).says(&["W0401"]);
+    assert!(all.out_text().contains("ok"));
+    let strict = ["check", "odd.ron", "--deny-warnings", "--allow", "W0401"];
+    sandbox.run(&strict).ends(0).silent();
+    sandbox.run(&["render", "odd.ron", "-o", "a.png", "--samples", "1", "--allow=W0401", "--quiet"]).ends(0).silent();
+    sandbox.run(&["check", "odd.ron", "--allow", "W0305"]).ends(0).says(&["W0401"]);
+    sandbox.run(&["check", "odd.ron", "--allow", "E0401"]).ends(2).says(&["E0401", "warnings begin with W"]);
+    sandbox.run(&["check", "odd.ron", "--allow", "W9"]).ends(2).says(&["there is no such code", "tracer explain"]);
+    // Quiet, it tells by its exit code alone, and errors.
+    let quiet = sandbox.run(&["check", "odd.ron", "-q"]).ends(0).silent();
+    assert_eq!(quiet.out_text(), "");
+    sandbox.run(&["check", "odd.ron", "-q", "--deny-warnings"]).ends(2).says(&["denied by --deny-warnings"]);
+    let added = sandbox.run(&["check", "scene.ron", "--set", "camera.fov+=5"]).ends(2);
+    added.says(&["E0404", "`+=`", "--set vars.name=2"]);
+}
+
+/// The views of all of a scene's cameras can be looked through, one after the other.
+#[test]
+fn check_looks_through_the_camera_that_is_named() {
+    let sandbox = Sandbox::new();
+    let cameras = "cameras: { \"front\": Camera(position: (0, 0, 5), look_at: (0, 0, 0)), \
+                   \"away\": Camera(position: (0, 0, 5), look_at: (0, 0, 9)) },";
+    let objects = "objects: [Sphere(center: (0, 0, 0), radius: 1)], background: 1";
+    sandbox.write("two.ron", format!("Scene({cameras} {objects})"));
+    let front = sandbox.run(&["check", "two.ron", "--camera", "front"]).ends(0).silent();
+    assert!(!front.out_text().contains("none is chosen"), "{}", front.out_text());
+    sandbox.run(&["check", "two.ron", "--camera", "away"]).ends(0).says(&["W0309"]);
+    sandbox.run(&["check", "two.ron", "--camera", "back"]).ends(2).says(&["front"]);
 }
 
 #[test]
@@ -268,6 +306,12 @@ fn schema_completions_and_man_pages() {
     let sections = [".TH tracer 1", ".SH EXAMPLES", ".SH \"EXIT STATUS\"", ".SH FILES", ".SH ENVIRONMENT"];
     assert!(sections.iter().all(|section| page.contains(section)) && !page.contains("EXTRA"), "{page}");
     assert!(sandbox.run(&["man", "render"]).ends(0).silent().out_text().contains("\\-\\-samples"));
+    // The synopsis says what options take.
+    let check = sandbox.run(&["man", "check"]).ends(0).silent().out_text();
+    let synopsis = check.lines().skip_while(|line| *line != ".SH SYNOPSIS").nth(1).expect("a line");
+    for word in [r"[\fB\-\-set\fR \fIPATH=VALUE\fR]...", r"[\fB\-\-fix\fR]", r"[\fB\-q\fR]", r"\fISCENE\fR..."] {
+        assert!(synopsis.contains(word), "{word}: {synopsis}");
+    }
     assert!(sandbox.run(&["man", "golden-run"]).ends(0).silent().out_text().contains("\\-\\-junit"));
     sandbox.run(&["man", "nothing"]).ends(2).says(&["nothing", "render"]);
 }
@@ -289,7 +333,7 @@ fn the_table_of_figures() {
     let third = table(&["3", "--samples", "1000"]);
     assert!(third.contains("3       256x256, 10 samples, 5 bounces") && third.contains("7 s (with a tree)"), "{third}");
     sandbox.run(&["bench-figures", "10"]).ends(2).says(&["10", "1..=9"]);
-    sandbox.run(&["bench-figures", "--scenes", "nowhere"]).ends(2).says(&["there is no scene file nowhere/fig1.ron"]);
+    sandbox.run(&["bench-figures", "--scenes", "nowhere"]).ends(2).says(&["there is no nowhere/fig1.ron", "--scenes"]);
 }
 
 #[test]

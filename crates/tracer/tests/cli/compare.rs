@@ -45,6 +45,8 @@ fn a_limit_decides() {
     let ran = compare(&["--fail-above", "flip-mean=0.9", "--fail-above", "max=0.0001"]).ends(1);
     assert!(ran.out_text().contains("max is above 0.0001"));
     assert!(!ran.out_text().contains("flip-mean is above"));
+    let quiet = compare(&["--fail-above", "max=0.0001", "-q"]).ends(1).silent();
+    assert_eq!(quiet.out_text(), "");
     compare(&["--fail-above", "0.1"]).ends(2).says(&["flip-mean=0.01"]);
     compare(&["--fail-above", "ssim=0.1"]).ends(2).says(&["ssim", "flip-mean"]);
     compare(&["--fail-above", "max=-1"]).ends(2).says(&["max=-1"]);

@@ -557,6 +557,8 @@ fn what_is_something_else_is_not_replaced() {
         sandbox.run(&["golden", "run", "golden", option, "made"]).ends(1);
         fs::remove_file(sandbox.path("made")).expect("it is there");
     }
+    sandbox.write("logo.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"><circle r=\"9\"/></svg>");
+    sandbox.run(&["inspect", "scene.ron", "--pixel", "0,0", "--svg", "logo.svg"]).ends(2).says(&["logo.svg"]);
     sandbox.run(&["inspect", "scene.ron", "--pixel", "0,0", "--svg", "a.svg"]).ends(0);
     sandbox.run(&["inspect", "scene.ron", "--pixel", "0,0", "--svg", "a.svg"]).ends(0);
     assert_eq!(sandbox.text("other.ron"), notes);

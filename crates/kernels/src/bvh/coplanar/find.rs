@@ -15,7 +15,7 @@
 use super::super::geometry::{Geometry, LeftOut, NONE};
 use super::grid::grid;
 use super::pairs::pairs_in;
-use super::same::{Same, identical};
+use super::same::{Same, bodies, bodies_in_one_place, identical};
 use super::{Coplanar, Grid, LONG, Member, Offsets, Outline, Ranks, SAME_SIDE, TRANSMITS};
 use crate::shapes::{FlatFace, Row};
 use glam::{DMat3, DVec3};
@@ -48,13 +48,13 @@ const ROOM: f64 = 16.0;
 /// A triangle of the scene, in render space.
 pub(super) struct Face {
     primitive: u32,
-    instance: u32,
+    pub(super) instance: u32,
     /// Which of a shape's flat parts.
     part: u8,
     /// What it is half of the square about.
     pub(super) curved: Option<FlatFace>,
     /// To the outside of its body; `None`: it bounds none.
-    outward: Option<DVec3>,
+    pub(super) outward: Option<DVec3>,
     material: Option<u32>,
     pub(super) corners: [DVec3; 3],
     pub(super) normal: DVec3,
@@ -67,7 +67,7 @@ pub(super) struct Face {
     height: f64,
     /// The largest coordinate.
     pub(super) reach: f64,
-    rank: u8,
+    pub(super) rank: u8,
     /// It is too narrow for its plane to be known.
     narrow: bool,
 }
@@ -371,8 +371,11 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)], same
     };
     let mut lists: Vec<Vec<u32>> = vec![Vec::new(); named.len()];
     let mut touching: Vec<Vec<[u32; 2]>> = vec![Vec::new(); named.len()];
+    let in_one_place = bodies_in_one_place(faces, pairs);
     for &(winner, loser, gap) in pairs {
-        for (one, other) in [(winner, loser), (loser, winner)] {
+        let both = bodies(&faces[winner as usize], &faces[loser as usize]);
+        let are_one = in_one_place.binary_search(&both).is_ok();
+        for (one, other) in [(winner, loser), (loser, winner)].into_iter().filter(|_| !are_one) {
             if let Some(behind) = touches(&faces[one as usize], &faces[other as usize]) {
                 touching[member_of(one)].push([member_of(other) as u32, behind]);
             }

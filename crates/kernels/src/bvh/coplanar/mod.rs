@@ -14,7 +14,8 @@
 //! Where two bodies that let light through touch, one face stands for both: what is behind it is not the outside but
 //! the other body ([`Coplanar::touching`]), and light passes from the one into the other at once. Else a ray that goes
 //! from body to body would leave twice, or enter twice, and carry the square of an index too much or too little. Where
-//! one lies in the other and ends where that ends, water flush with the rim, light passes into both at once.
+//! one lies in the other and ends where that ends, water flush with the rim, light passes into both at once. Bodies of
+//! the same triangles are one, the first.
 //!
 //! Rays start off such a surface by more than the others may lie in front of it ([`Coplanar::offsets`]), and rays to a
 //! surface end before it by as much; a ray to one that loses is blocked where the winner is. Who has no such
@@ -190,6 +191,24 @@ impl Coplanar {
     /// How far rays start off each curved shape at least, by its place among the shapes; empty where none takes part.
     pub fn shape_offsets(&self) -> &[f32] {
         &self.shapes.of
+    }
+
+    /// How far rays start off a primitive at least, and end before it; 0 where nothing else lies in its plane.
+    pub fn offset(&self, primitive: u32) -> f32 {
+        self.triangles.get(primitive).max(self.shapes.get(primitive))
+    }
+
+    /// Whether another one wins over some part of a primitive.
+    pub fn is_covered(&self, primitive: u32, instance: u32) -> bool {
+        let from = self.members.partition_point(|m| (m.primitive, m.instance) < (primitive, instance));
+        let of_primitive = |m: &&Member| (m.primitive, m.instance) == (primitive, instance);
+        self.members[from..].iter().take_while(of_primitive).any(|m| m.winners[0] < m.winners[1])
+    }
+
+    /// Whether another one wins over a primitive where a ray's line passes it at t, which may be that of a plane so far
+    /// beside.
+    pub fn is_covered_at(&self, target: (u32, u32), rays: &Rays, ray: usize, t: f32, slack: f32) -> bool {
+        self.member(target, rays, ray, t, slack).is_some_and(|member| self.winner(member, rays, ray, t).is_some())
     }
 
     /// All primitives that take part, rising.

@@ -1,10 +1,13 @@
-//! Triangles that are the same: a `Repeat` whose items do not go by its index makes thousands of them.
+//! Triangles, and bodies, that are the same: a `Repeat` whose items do not go by its index makes thousands of them.
 //!
 //! Where one of them is passed all are, so that the first stands for those beyond the first few: these win over
-//! nothing, and have the winners that it has, and it.
+//! nothing, and have the winners that it has, and it. Bodies that let light through and are of the same triangles are
+//! one: light does not pass into both where it passes into the first.
 
+use super::TRANSMITS;
 use super::find::Face;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// So many of the same are kept: bodies of glass that touch may need more than one.
@@ -59,6 +62,33 @@ fn corners(face: &Face) -> [[u64; 3]; 3] {
     let mut corners = face.corners.map(|corner| corner.to_array().map(f64::to_bits));
     corners.sort_unstable();
     corners
+}
+
+/// Bodies that let light through and are in one place, as pairs of instances, rising: all triangles of both are in
+/// pairs that have the same corners, with their insides on the same side.
+pub(super) fn bodies_in_one_place(faces: &[Face], pairs: &[(u32, u32, f64)]) -> Vec<[u32; 2]> {
+    let same = |&&(one, other, _): &&(u32, u32, f64)| {
+        let (one, other) = (&faces[one as usize], &faces[other as usize]);
+        let transmit = one.rank == TRANSMITS && other.rank == TRANSMITS && one.instance != other.instance;
+        let flat = one.curved.is_none() && other.curved.is_none();
+        let alike = one.outward.zip(other.outward).is_some_and(|(a, b)| a.dot(b) > 0.0);
+        transmit && flat && alike && corners(one) == corners(other)
+    };
+    let mut both: Vec<[u32; 2]> =
+        pairs.iter().filter(same).map(|pair| bodies(&faces[pair.0 as usize], &faces[pair.1 as usize])).collect();
+    both.sort_unstable();
+    let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
+    if !both.is_empty() {
+        faces.iter().for_each(|face| *counts.entry(face.instance).or_default() += 1);
+    }
+    let of_same = both.chunk_by(|a, b| a == b);
+    let whole = of_same.filter(|of| of[0].iter().all(|body| counts.get(body) == Some(&of.len())));
+    whole.map(|of| of[0]).collect()
+}
+
+/// The bodies of two triangles.
+pub(super) fn bodies(one: &Face, other: &Face) -> [u32; 2] {
+    [one.instance.min(other.instance), one.instance.max(other.instance)]
 }
 
 /// The pairs of triangles too narrow to have a plane, those from `first` on, whose corners are the same, winner first.

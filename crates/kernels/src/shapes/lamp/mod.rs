@@ -161,6 +161,12 @@ impl Lamp {
         }
     }
 
+    /// The same, off whose flat parts rays start and end so far at least.
+    #[must_use]
+    pub fn keep_off(self, least: f64) -> Self {
+        Lamp { offset: self.offset.max(least), ..self }
+    }
+
     /// The area in render space, of one side.
     pub fn area(&self) -> f64 {
         self.area

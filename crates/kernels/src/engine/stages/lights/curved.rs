@@ -7,10 +7,10 @@ use crate::scene::{CurvedRow, LightTable};
 use glam::DVec3;
 
 /// The most lanes that there are.
-const MOST: usize = 32;
+pub(super) const MOST: usize = 32;
 
 /// Three numbers of each lane.
-type Column3 = [[f32; MOST]; 3];
+pub(super) type Column3 = [[f32; MOST]; 3];
 
 /// Directions from `p` to the lights `k`, in the lanes of the mask; others hold anything.
 #[inline(always)]
@@ -70,6 +70,16 @@ fn loaded<F: Lanes>(columns: &Column3) -> V3<F> {
     V3(F::load(&columns[0]), F::load(&columns[1]), F::load(&columns[2]))
 }
 
+/// A vector's numbers, lane by lane.
+#[inline(always)]
+pub(super) fn columns<F: Lanes>(vector: V3<F>) -> Column3 {
+    let mut columns = [[0.0; MOST]; 3];
+    vector.0.store(&mut columns[0]);
+    vector.1.store(&mut columns[1]);
+    vector.2.store(&mut columns[2]);
+    columns
+}
+
 /// What is asked of which light.
 struct Asked {
     row: [u32; MOST],
@@ -83,14 +93,8 @@ struct Asked {
 impl Asked {
     #[inline(always)]
     fn new<F: Lanes>(first: u32, row: F::U, from: V3<F>, numbers: V3<F>) -> Self {
-        let zero = [[0.0; MOST]; 3];
-        let mut asked = Asked { row: [0; MOST], first, from: zero, numbers: zero };
+        let mut asked = Asked { row: [0; MOST], first, from: columns(from), numbers: columns(numbers) };
         row.store(&mut asked.row);
-        for (to, vector) in [(&mut asked.from, from), (&mut asked.numbers, numbers)] {
-            vector.0.store(&mut to[0]);
-            vector.1.store(&mut to[1]);
-            vector.2.store(&mut to[2]);
-        }
         asked
     }
 
@@ -100,7 +104,7 @@ impl Asked {
 }
 
 /// The lanes of a mask.
-struct Set(u32);
+pub(super) struct Set(pub u32);
 
 impl Iterator for Set {
     type Item = usize;

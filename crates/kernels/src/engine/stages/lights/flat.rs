@@ -132,7 +132,7 @@ mod tests {
             let v = |random: &mut Random, size: f64| size * random.direction();
             let (corner, size) = (v(&mut random, 0.5), random.between(0.05, 1.0));
             let edges = [v(&mut random, size), v(&mut random, 0.7 * size)];
-            let flat = FlatLight { corner, edges, radiance: [1.0, 2.0, 3.0], two_sided: k % 3 == 0 };
+            let flat = FlatLight { corner, edges, radiance: [1.0, 2.0, 3.0], two_sided: k % 3 == 0, offset: 0.0 };
             if flat.edges[0].cross(flat.edges[1]).length() < 0.1 * size * size {
                 continue;
             }

@@ -1,15 +1,16 @@
-//! Lamps whose points shine unlike each other: the share of a lamp's radiance that a point has, by its texture.
+//! Lamps whose points shine unlike each other: the share of a lamp's radiance that a point has, by its texture, and
+//! none where something else in its plane is met instead.
 //!
 //! Directions to lamps are taken as if they shone evenly, with the same densities: where a point shines more, a sample
 //! brings more. So it does not matter whether a point is asked for where a ray met it or where a light sample goes: the
 //! surface there is found by the same function. Parts, since only scenes that have such lamps pay for them.
 //!
-//! Of a lamp without a texture the share is one.
+//! Of a lamp without a texture the share is one, and so it is wherever rays have met one: nothing is in its place.
 
 use super::super::materials::Texel;
 use super::super::patterns::At;
 use super::super::surface::{Surface, surface};
-use super::flat_row;
+use super::{covered, flat_row};
 use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::V3;
 use crate::scene::{LightTable, Scene};
@@ -47,6 +48,9 @@ impl<F: Lanes> Part<F> for Met<'_, F> {
     #[inline(always)]
     fn run(self) -> V3<F> {
         let Met { scene, at, normal, material, mask } = self;
+        if scene.tables.materials.glow.is_empty() {
+            return V3::grey(F::splat(1.0));
+        }
         let number = F::U::gather(&scene.tables.materials.glow, F::U::select(mask, material, F::U::splat(0)));
         share(scene, number, at, normal, mask)
     }
@@ -72,7 +76,9 @@ impl<F: Lanes> Part<F> for Towards<'_, F> {
         let Some(glow) = &lights.glow else { return one };
         let light = F::U::select(mask, light, F::U::splat(0));
         let number = F::U::gather(&glow.texture, light);
-        let on = mask & !number.eq(F::U::splat(0));
+        let has_texture = mask & !number.eq(F::U::splat(0));
+        let is_covered = mask & !F::U::gather(&glow.covered, light).eq(F::U::splat(0));
+        let on = has_texture | is_covered;
         if !on.any() {
             return one;
         }
@@ -84,8 +90,17 @@ impl<F: Lanes> Part<F> for Towards<'_, F> {
             let second = on_flat & beyond_diagonal(lights, light, point);
             primitive = primitive + F::U::select(second, F::U::splat(1), F::U::splat(0));
         }
-        let s = surface(scene, origin, direction, distance, primitive, instance, on);
-        share(scene, number, At::of(&s), s.ns, on)
+        let mut found = one;
+        if has_texture.any() {
+            let s = surface(scene, origin, direction, distance, primitive, instance, has_texture);
+            found = share(scene, number, At::of(&s), s.ns, has_texture);
+        }
+        if is_covered.any() {
+            let covered =
+                covered::lanes(scene, light, (primitive, instance), (origin, direction), distance, is_covered);
+            found = V3::select(covered, V3::zero(), found);
+        }
+        found
     }
 }
 

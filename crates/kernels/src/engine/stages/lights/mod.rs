@@ -4,8 +4,10 @@
 //! A light shines alike in all directions, from its front: outwards, or the side of its normal; from its back, too,
 //! where it has two sides. A sample of a light that does not shine to the receiver has radiance zero. A picture of all
 //! directions ([`environment`]) is a light without a number, infinitely far away. Where a texture says which points of
-//! a lamp shine more than others, radiance is that of a white point, and [`glow`] says what share of it a point has.
+//! a lamp shine more than others, radiance is that of a white point, and [`glow`] says what share of it a point has. So
+//! it does where lamps lie in one plane and one of them is met in place of the others.
 
+mod covered;
 pub mod curved;
 mod environment;
 mod flat;

@@ -285,7 +285,13 @@ fn triangles(lights: &[(DVec3, DVec3)]) -> LightTable {
     let triangle = |&(center, normal): &(DVec3, DVec3)| {
         let [a, b] = [normal.any_orthonormal_vector(), normal.cross(normal.any_orthonormal_vector())];
         let corner = center - (a + b) * 0.01;
-        Light::Triangle(FlatLight { corner, edges: [0.03 * a, 0.03 * b], radiance: [1.0; 3], two_sided: false })
+        Light::Triangle(FlatLight {
+            corner,
+            edges: [0.03 * a, 0.03 * b],
+            radiance: [1.0; 3],
+            two_sided: false,
+            offset: 0.0,
+        })
     };
     LightTable::new(&lights.iter().map(triangle).collect::<Vec<_>>(), &[], None)
 }

@@ -37,10 +37,18 @@ fn table() -> LightTable {
         Sphere { center: DVec3::new(3.0, 0.0, 0.0), radius: 0.5, material: NONE, object: 0, light: 0, coordinates: 0 };
     let curved = |shape: u32, unit: UnitShape, two_sided: bool| {
         let placement = DAffine3::from_translation(DVec3::new(0.0, 0.0, 3.0 * f64::from(shape)));
-        Light::Curved(CurvedLight { shape, unit, placement, radiance: [1.0, 2.0, f64::from(shape)], two_sided })
+        Light::Curved(CurvedLight {
+            shape,
+            unit,
+            placement,
+            radiance: [1.0, 2.0, f64::from(shape)],
+            two_sided,
+            offset: 0.0,
+        })
     };
     let edges = [DVec3::X, DVec3::Y];
-    let square = FlatLight { corner: DVec3::new(-3.0, 0.0, 0.0), edges, radiance: [5.0; 3], two_sided: true };
+    let square =
+        FlatLight { corner: DVec3::new(-3.0, 0.0, 0.0), edges, radiance: [5.0; 3], two_sided: true, offset: 0.0 };
     let lights = [
         Light::Sphere { sphere: 0, radiance: [9.0; 3], two_sided: true },
         curved(0, UnitShape::Disk { inner: 0.2 }, false),
