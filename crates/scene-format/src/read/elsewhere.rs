@@ -2,16 +2,20 @@
 //! `RotateY(30)`.
 
 use super::Reader;
+use super::colors_elsewhere::{numbers_in_text, of_mesh};
 use super::shape_fields::one_ring;
 use super::value::{hex_color, is_picture};
 use crate::codes;
-use crate::desc::is_texture;
 use crate::desc::matrix::unnamed_rows;
+use crate::desc::{Material, is_texture};
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::expression::TEMPERATURES;
 use crate::schema::{FieldDef, StructDef};
 use crate::syntax::{Syntax, decode};
 use crate::tree::{Item, Kind};
+
+/// Transforms as they are written here.
+const TRANSFORMS: [&str; 4] = ["Translate", "Rotate", "Scale", "Matrix"];
 
 /// Colours by their names in CSS, for hints.
 const COLORS: [(&str, &str); 26] = [
@@ -62,6 +66,32 @@ fn rounded(value: f64) -> String {
     if (value - near).abs() < 1e-3 * value.abs().max(1.0) { format!("{near}") } else { format!("{value}") }
 }
 
+/// Radians as degrees: a multiple of 15 where the digits that are written, three or more, are its own.
+fn degrees(radians: f64, written: &str) -> String {
+    let fraction = written.split_once('.').map_or("", |(_, fraction)| fraction);
+    let significant = written.trim_start_matches(['-', '+', '0', '.']).bytes().filter(u8::is_ascii_digit).count();
+    let plain = written.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+'));
+    let near = (radians.to_degrees() / 15.0).round() * 15.0;
+    let same = format!("{:.*}", fraction.len(), near.to_radians()) == format!("{radians:.*}", fraction.len());
+    if plain && significant >= 3 && same { format!("{near}") } else { rounded(radians.to_degrees()) }
+}
+
+/// The rows of a matrix that a transform is made of alone, as the camera has them.
+fn rows_of(value: Item<'_, '_>) -> Option<String> {
+    let mut children = value.children();
+    let only = match value.kind() {
+        Kind::List if value.name().is_none() => children.next().filter(|_| children.next().is_none())?,
+        _ => value,
+    };
+    if only.name() != Some("Matrix") {
+        return None;
+    }
+    let named = only.fields().find(|(key, _)| key.text() == "rows").map(|(_, rows)| rows.lexeme().to_owned());
+    let mut inner = only.children();
+    let mut listed = || inner.next().and_then(matrix_rows).or_else(|| matrix_rows(only));
+    named.or_else(|| listed().and_then(|rows| rows.strip_prefix("rows: ").map(str::to_owned)))
+}
+
 /// The numbers within brackets as they are written; `None` where there is anything else.
 pub(super) fn numbers<'s>(item: Item<'_, 's>) -> Option<Vec<&'s str>> {
     let numbers: Option<Vec<&str>> =
@@ -85,6 +115,11 @@ fn fields_named<'s, const N: usize>(item: Item<'_, 's>, names: [&str; N]) -> Opt
     }
     let found: Vec<&str> = values.into_iter().flatten().collect();
     found.try_into().ok()
+}
+
+/// Channels by their names as a colour.
+pub(super) fn channels(item: Item<'_, '_>) -> Option<String> {
+    fields_named(item, ["r", "g", "b"]).map(|found| vector(item, &found))
 }
 
 /// The axis that a word names: `Y`, `-z`.
@@ -136,6 +171,7 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
             };
             found.map(|found| vector(item, &found))
         }
+        Kind::Text if let Some(mended) = numbers_in_text(item, count) => Some(mended),
         Kind::Word | Kind::Text | Kind::Char if at.rule.direction && count == 3 => {
             axis(&item.text()).map(|axis| vector(item, &axis))
         }
@@ -176,7 +212,7 @@ pub(super) fn number_elsewhere(item: Item<'_, '_>, at: &FieldDef) -> Option<Stri
     match item.name() {
         None | Some("Some" | "float" | "int" | "f32" | "f64" | "Number") => Some(only.lexeme().to_owned()),
         Some("deg" | "degrees") if at.rule.unit == "in degrees" => Some(only.lexeme().to_owned()),
-        Some("rad" | "radians") if at.rule.unit == "in degrees" => Some(rounded(value.to_degrees())),
+        Some("rad" | "radians") if at.rule.unit == "in degrees" => Some(degrees(value, only.lexeme())),
         Some(_) => None,
     }
 }
@@ -220,7 +256,26 @@ pub(super) fn field_elsewhere(
             Some((None, format!("{}{texture}", name_of("albedo"))))
         }
         "diameter" => convert("radius", |d| d / 2.0),
-        "radians" => convert("degrees", f64::to_degrees),
+        "radians" if def.field("degrees").is_some() => {
+            let degrees = degrees(value.number()?, value.lexeme());
+            Some((Some("degrees"), format!("{}{degrees}", name_of("degrees"))))
+        }
+        "smooth" | "smooth_shading" | "smoothing" | "shade_smooth" if def.field("shading").is_some() => {
+            let kind = match value.lexeme() {
+                "true" => "Smooth",
+                "false" => "Flat",
+                _ => return None,
+            };
+            let kind = if value.syntax() == Syntax::Ron { kind.to_owned() } else { format!("\"{kind}\"") };
+            Some((Some("shading"), format!("{}{kind}", name_of("shading"))))
+        }
+        "transform" | "matrix_world" | "to_world" | "camera_to_world" | "world_matrix" if def.name == "Camera" => {
+            rows_of(value).map(|rows| (None, format!("{}{rows}", name_of("matrix"))))
+        }
+        "object" | "item" | "body" | "child" if def.name == "Repeat" => {
+            Some((None, format!("{}[{}]", name_of("items"), value.lexeme())))
+        }
+        _ if let Some(mended) = of_mesh(name, value, def) => Some((None, mended)),
         "resolution" | "size" | "dimensions" | "res" | "pixels" if def.name == "Image" => {
             let [width, height] = sides(value)?;
             Some((None, format!("{}{width}, {}{height}", name_of("width"), name_of("height"))))
@@ -289,7 +344,11 @@ impl Reader<'_> {
             return true;
         }
         let bare = match item.kind() {
-            Kind::Word => lexeme.starts_with(char::is_lowercase) && !item.is_null(),
+            Kind::Word => {
+                let cased = || self.materials.nearest(lexeme).is_some_and(|known| known.eq_ignore_ascii_case(lexeme));
+                lexeme.starts_with(char::is_lowercase) && !item.is_null()
+                    || Material::DEF.variant(lexeme).is_none() && cased()
+            }
             Kind::Char => true,
             Kind::Integer | Kind::Float => self.knows_material(lexeme),
             _ => false,
@@ -337,6 +396,39 @@ impl Reader<'_> {
         } else {
             fault = fault.hint(format!("one step turns about one axis, as in {mended}"));
         }
+        self.report(fault);
+        true
+    }
+
+    /// A list of points or of single transforms where one of placements stands, `[(1, 0, 0), (2, 0, 0)]`: reported once.
+    pub(crate) fn placements_elsewhere(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
+        // More than these are told one by one.
+        const MOST: usize = 20;
+        let mut children = item.children();
+        let right =
+            |first: Item<'_, '_>| first.kind() == Kind::List && first.children().any(|step| step.number().is_none());
+        if children.next().is_none_or(right) || children.next().is_none() || children.nth(MOST - 2).is_some() {
+            return false;
+        }
+        let placement = |child: Item<'_, '_>| {
+            let point = numbers(child).filter(|numbers| child.name().is_none() && numbers.len() == 3);
+            let Some(numbers) = point else {
+                let certain = child.name().is_some() && TRANSFORMS.contains(&child.name().unwrap_or_default());
+                return certain.then(|| format!("[{}]", child.lexeme()));
+            };
+            let by = numbers.join(", ");
+            Some(match child.syntax() {
+                Syntax::Ron => format!("[Translate(({by}))]"),
+                syntax => syntax.of_toml(format!("[{{ Translate = [{by}] }}]")).into_owned(),
+            })
+        };
+        let Some(all) = item.children().map(placement).collect::<Option<Vec<String>>>() else { return false };
+        let mended = format!("[{}]", all.join(", "));
+        let message = format!("{} are lists of transforms, one list for each copy", super::plain(at.noun));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+            .expected(super::value::expected_for(at, item))
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: item.span(), replacement: mended });
         self.report(fault);
         true
     }
@@ -415,8 +507,15 @@ fn meant_transform(name: &str, body: Item<'_, '_>) -> Option<Meant> {
         Some([only]) => Some(*only),
         _ => None,
     });
+    let mut in_degrees = None;
+    if named {
+        let all = ["degrees", "angle", "deg", "by", "theta", "value"];
+        in_degrees = all.iter().find_map(|field| fields_named(body, [*field])).map(|[degrees]| degrees.to_owned());
+        let radians = || fields_named(body, ["radians"]).map(|[radians]| degrees(decode::number(radians), radians));
+        in_degrees = in_degrees.or_else(radians);
+    }
     if let Some(letter) = lower.strip_prefix("rotate").or(lower.strip_prefix("rot")).map(|rest| rest.trim_matches('_'))
-        && let (Some(axis), Some(degrees)) = (axis(letter), number)
+        && let (Some(axis), Some(degrees)) = (axis(letter), in_degrees.as_deref().or(number))
     {
         return Some(rotation(axis, degrees, true));
     }

@@ -7,6 +7,7 @@
 mod camera;
 mod check;
 mod clock;
+mod colors_elsewhere;
 mod elsewhere;
 mod everyday;
 mod hints;
@@ -293,6 +294,9 @@ impl<'r> Reader<'r> {
                         syntax.of_toml(words).into_owned()
                     }
                 };
+                if def.name == "Output" && item.kind() == Kind::Text {
+                    return self.output_as_text(item, &expected);
+                }
                 return self.wrong_kind(item, def.noun, &expected, edit);
             }
         }
@@ -561,7 +565,9 @@ impl<'r> Reader<'r> {
 
     /// Reports a value of the wrong kind for a field.
     pub(crate) fn wrong_type<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef, expected: &str) -> Option<T> {
-        self.wrong_kind(item, at.noun, expected, None)
+        // `vars: (h: 2)`: names in the brackets of fields.
+        let edit = matches!(at.kind, Type::Map(_)).then(|| colors_elsewhere::in_braces(item)).flatten();
+        self.wrong_kind(item, at.noun, expected, edit)
     }
 
     pub(crate) fn wrong_kind<T>(

@@ -158,6 +158,9 @@ impl Reader<'_> {
         if let Some(value) = self.expression(item) {
             return value.and_then(|value| self.number_of(value, item, at));
         }
+        if self.name_as_value(item, at) {
+            return None;
+        }
         let mut edit = None;
         if let Kind::Text | Kind::Word = item.kind() {
             let text = item.text();
@@ -179,6 +182,40 @@ impl Reader<'_> {
             edit = elsewhere::number_elsewhere(item, at);
         }
         self.wrong_kind(item, at.noun, &expected_for(at, item), edit)
+    }
+
+    /// A name with a value in the way of another language, `"$h"`, or one that has none: reported here.
+    fn name_as_value(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
+        if !matches!(item.kind(), Kind::Text | Kind::Word) {
+            return false;
+        }
+        let text = item.text();
+        let bare = text.trim();
+        let inner = bare.trim_start_matches(['$', '{', '%', '@']).trim_end_matches(['}', '%']).trim();
+        let name = inner.strip_prefix("vars.").unwrap_or(inner);
+        let marked = name.len() < bare.len();
+        let off = ["none", "off", "no", "never", "true", "false", "yes", "on"].contains(&&*name.to_ascii_lowercase());
+        let lower = name.starts_with(|c: char| c.is_lowercase());
+        if !expression::is_name(name)
+            || off
+            || item.is_null()
+            || self.knows_var(bare)
+            || !(marked || lower && !self.has_vars())
+        {
+            return false;
+        }
+        let message = format!("{} cannot be {}", plain(at.noun), super::describe(item));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected_for(at, item));
+        if self.knows_var(name) {
+            fault.hint = format!("write \"={name}\"");
+            fault.edit = Some(Edit { span: item.span(), replacement: format!("\"={name}\"") });
+        } else if item.syntax() == Syntax::Ron {
+            fault.hint = crate::syntax::declarations::way(name, "..");
+        } else {
+            fault.hint = format!("values with names stand in `vars`, and are used so: \"={name}\"");
+        }
+        self.report(fault);
+        true
     }
 
     /// Whether a text without `=` before it is an expression of names that are known: `2*r`.
@@ -481,6 +518,12 @@ impl Reader<'_> {
         .expected(expected_for(at, item));
         if self.knows_var(text.trim()) {
             let mended = format!("\"={}\"", text.trim());
+            fault.hint = format!("write {mended}");
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            self.report(fault);
+            return None;
+        }
+        if let Some(mended) = super::colors_elsewhere::numbers_in_text(item, 3) {
             fault.hint = format!("write {mended}");
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
             self.report(fault);
