@@ -311,14 +311,13 @@ fn names_with_values_of_other_languages() {
 #[test]
 fn numbers_and_colors_of_other_programs() {
     let colors = [
-        ("rgb(80%, 20%, 10%)", "write 0.8, 0.2, 0.1"),
+        ("rgb(80%, 20%, 10%)", "write (0.8, 0.2, 0.1)"),
         ("(80%, 20%, 10%)", "write 0.8, 0.2, 0.1"),
         ("(208, 58, 43)", "write \"#d03a2b\""),
         ("(r: 1, g: 0, b: 0)", "write (1, 0, 0)"),
         ("(1, 0, 0, 1)", "write (1, 0, 0)"),
         ("(1, 0, 0, 0.5)", "no alpha"),
         ("Red", "write \"#ff0000\""),
-        ("\"0.8 0.2 0.1\"", "write (0.8, 0.2, 0.1)"),
     ];
     check(&colors, |color| {
         format!("Scene(background: 1, objects: [{BALL}, Box(size: 1, material: Diffuse(albedo: {color}))])")

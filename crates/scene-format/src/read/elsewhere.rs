@@ -507,17 +507,17 @@ fn meant_transform(name: &str, body: Item<'_, '_>) -> Option<Meant> {
         Some([only]) => Some(*only),
         _ => None,
     });
-    let mut in_degrees = None;
-    if named {
+    // `RotateX(degrees: 30)`; asked of names with an axis alone.
+    let in_degrees = || {
         let all = ["degrees", "angle", "deg", "by", "theta", "value"];
-        in_degrees = all.iter().find_map(|field| fields_named(body, [*field])).map(|[degrees]| degrees.to_owned());
+        let found = all.iter().find_map(|field| fields_named(body, [*field])).map(|[degrees]| degrees.to_owned());
         let radians = || fields_named(body, ["radians"]).map(|[radians]| degrees(decode::number(radians), radians));
-        in_degrees = in_degrees.or_else(radians);
-    }
+        found.or_else(radians).or(number.map(str::to_owned))
+    };
     if let Some(letter) = lower.strip_prefix("rotate").or(lower.strip_prefix("rot")).map(|rest| rest.trim_matches('_'))
-        && let (Some(axis), Some(degrees)) = (axis(letter), in_degrees.as_deref().or(number))
+        && let (Some(axis), Some(degrees)) = (axis(letter), in_degrees())
     {
-        return Some(rotation(axis, degrees, true));
+        return Some(rotation(axis, &degrees, true));
     }
     match lower.as_str() {
         "rotate" | "rotation" => {

@@ -264,6 +264,22 @@ fn a_wrong_command_gets_a_tip() {
     wrong(&["--resolved"], "--resolved belongs to tracer info");
     wrong(&["render", "scene.ron", "--spp", "3"], "--samples 64");
     wrong(&["render", "scene.ron", "--width=3"], "--size 640x480");
+    for (word, ours) in [
+        ("serve", "preview"),
+        ("view", "preview"),
+        ("format", "fmt"),
+        ("init", "new"),
+        ("test", "golden"),
+        ("validate", "check"),
+        ("diff", "compare"),
+    ] {
+        wrong(&[word], &format!("'{ours}'"));
+    }
+    wrong(&["version"], "tracer --version");
+    wrong(&["render", "scene.ron", "--watch"], "tracer preview SCENE");
+    sandbox.run(&["preview", "scene.ron", "--port", "abc"]).ends(2).says(&["expected a whole number in 0..=65535"]);
+    sandbox.run(&["render", "scene.ron", "--seed", "-1"]).ends(2).says(&["expected a whole number in 0..=4294967295"]);
+    sandbox.run(&["bench-figures", "foo"]).ends(2).says(&["expected the number of a figure, 1 to 9"]);
     wrong(&["render", "scene.ron", "--outptu", "a.png"], "'--output'");
     assert_eq!(sandbox.files(), ["scene.ron"]);
 }

@@ -253,6 +253,10 @@ fn lamps_without_light_are_told() {
     // Pictures of no light need none.
     let occlusion = scene(&light("power: 0"), ball).replace("samples: 2", "samples: 2, integrator: AmbientOcclusion()");
     assert!(codes(&sandbox, &occlusion).is_empty());
+    // Where only what a mesh brings might shine, it is told at the mesh.
+    sandbox.write("box.obj", cube(true));
+    sandbox.write("odd.ron", scene("", "Mesh(file: \"box.obj\")"));
+    sandbox.run(&["check", "odd.ron", "--diagnostics", "github"]).says(&["file=odd.ron,line=", "W0301"]);
     // That there is no light at all is told once, too.
     assert_eq!(codes(&sandbox, &scene("", ball)), ["W0301"]);
 }
