@@ -328,7 +328,7 @@ fn numbers_and_colors_of_other_programs() {
         ("\"0 1.6 6\"", "write (0, 1.6, 6)"),
         ("(0, \u{2212}35, 0)", "plain `-`"),
         ("(0\u{ff0c}1\u{ff0c}2)", "write 0, 1, 2"),
-        ("(0\u{200b}, 1, 2)", "remove it"),
+        ("(0\u{200b}, 1, 2)", "write 0, without"),
         ("(0, \u{200b}1, 2)", "remove it"),
     ];
     check(&points, |point| format!("Scene(background: 1, objects: [Sphere(center: {point}, radius: 1)])"));

@@ -133,6 +133,27 @@ fn before_unit(text: &str) -> Option<&str> {
     (short && decode::number(number).is_finite()).then_some(number)
 }
 
+/// Words that stand for numbers in other programs, and are no names.
+const EVERYDAY: [&str; 17] = [
+    "none",
+    "null",
+    "nil",
+    "off",
+    "no",
+    "never",
+    "true",
+    "false",
+    "yes",
+    "on",
+    "auto",
+    "default",
+    "max",
+    "min",
+    "inf",
+    "infinite",
+    "unlimited",
+];
+
 impl Reader<'_> {
     /// `null`, as JSON has it, for a field that cannot be `None`.
     pub(super) fn null<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
@@ -194,14 +215,11 @@ impl Reader<'_> {
         let inner = bare.trim_start_matches(['$', '{', '%', '@']).trim_end_matches(['}', '%']).trim();
         let name = inner.strip_prefix("vars.").unwrap_or(inner);
         let marked = name.len() < bare.len();
-        let off = ["none", "off", "no", "never", "true", "false", "yes", "on"].contains(&&*name.to_ascii_lowercase());
-        let lower = name.starts_with(|c: char| c.is_lowercase());
-        if !expression::is_name(name)
-            || off
-            || item.is_null()
-            || self.knows_var(bare)
-            || !(marked || lower && !self.has_vars())
-        {
+        let known = self.knows_var(bare);
+        // A word where nothing has a name may be one; texts and words of every day are not.
+        let word = item.kind() == Kind::Word && name.starts_with(|c: char| c.is_lowercase()) && !self.has_vars();
+        let lower = name.to_ascii_lowercase();
+        if !expression::is_name(name) || EVERYDAY.contains(&&*lower) || known || !(marked || word) {
             return false;
         }
         let message = format!("{} cannot be {}", plain(at.noun), super::describe(item));
