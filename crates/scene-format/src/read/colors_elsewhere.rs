@@ -6,7 +6,7 @@ use super::{Reader, plain};
 use crate::codes;
 use crate::desc::is_texture;
 use crate::diagnostic::{Diagnostic, Edit};
-use crate::schema::{EnumDef, FieldDef, StructDef};
+use crate::schema::{EnumDef, FieldDef, StructDef, Type};
 use crate::syntax::ron_literal::number_kind;
 use crate::syntax::{Syntax, decode};
 use crate::tree::{Item, Kind};
@@ -85,9 +85,10 @@ impl Reader<'_> {
     }
 
     /// The name of a picture where the output stands.
-    pub(super) fn output_as_text<T>(&mut self, item: Item<'_, '_>, expected: &str) -> Option<T> {
+    pub(super) fn output_as_text<T>(&mut self, item: Item<'_, '_>) -> Option<T> {
         let message = format!("the output cannot be {}", super::describe(item));
-        let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
+        let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+            .expected("Output(alpha: true), and its other fields");
         let hint = "the picture's name stands on the command line: tracer render scene.ron -o picture.png";
         self.report(fault.hint(hint));
         None
@@ -123,8 +124,12 @@ pub(super) fn without_alpha(item: Item<'_, '_>, at: &FieldDef, right: usize) -> 
 }
 
 /// `{ "h": 2 }` for `(h: 2)`, names with their values in the brackets of fields.
-pub(super) fn in_braces(item: Item<'_, '_>) -> Option<String> {
-    if item.kind() != Kind::Struct || item.name().is_some() || item.syntax() != Syntax::Ron {
+pub(super) fn in_braces(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    if !matches!(at.kind, Type::Map(_))
+        || item.kind() != Kind::Struct
+        || item.name().is_some()
+        || item.syntax() != Syntax::Ron
+    {
         return None;
     }
     const MOST: usize = 20;

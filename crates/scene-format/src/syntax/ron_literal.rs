@@ -34,11 +34,17 @@ impl Parser<'_> {
                 && matches!(bytes[at - 1], b'e' | b'E')
                 && at > digits
                 && !bytes[digits..].starts_with(b"0x");
+            if !byte.is_ascii() && self.text.get(at..).is_some_and(|rest| rest.starts_with(is_wide_comma)) {
+                break;
+            }
             if byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.') || sign_of_exponent || !byte.is_ascii() {
                 at += 1;
             } else {
                 break;
             }
+        }
+        if bytes.get(at).is_some_and(|byte| !byte.is_ascii()) && self.wide_commas(start) {
+            return;
         }
         let mut mended = None;
         if at == digits && digits > start {
@@ -70,7 +76,6 @@ impl Parser<'_> {
         self.at = at;
         match number_kind(lexeme) {
             Some(kind) => self.builder.leaf(kind, start, at),
-            None if self.wide_commas(start) => {}
             None => {
                 let found = self.span(start, at.max(start + 1));
                 let plain = lexeme.replace(is_invisible, "");

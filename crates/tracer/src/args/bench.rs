@@ -35,7 +35,7 @@ Examples:
 /// The number of a figure.
 fn figure(text: &str) -> Result<u8, String> {
     let number = text.parse().ok().filter(|number| (1..=9).contains(number));
-    number.ok_or_else(|| "expected the number of a figure, 1 to 9".to_owned())
+    number.ok_or_else(|| "expected the number of a figure, in 1..=9".to_owned())
 }
 
 /// `tracer bench-figures`
