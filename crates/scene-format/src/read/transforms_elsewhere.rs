@@ -1,4 +1,4 @@
-//! Transforms and placements in the ways of other programs: `RotateY(30)`, `Translate(x: 1)`, `placements: [(1, 0, 0)]`.
+//! Transforms and placements in the ways of other programs: `RotateY(30)`, `Translate(x: 1)`, `[(1, 0, 0)]`.
 
 use super::Reader;
 use super::elsewhere::{axis, degrees, fields_named, numbers};
@@ -38,7 +38,7 @@ impl Reader<'_> {
         true
     }
 
-    /// A list of points or of single transforms where one of placements stands, `[(1, 0, 0), (2, 0, 0)]`: reported once.
+    /// A list of points or of single transforms where one of placements stands, `[(1, 0, 0), (2, 0, 0)]`: told once.
     pub(crate) fn placements_elsewhere(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
         // More than these are told one by one.
         const MOST: usize = 20;

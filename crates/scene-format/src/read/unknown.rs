@@ -84,7 +84,6 @@ impl Reader<'_> {
     /// Reports a field that there is not; gives what is meant.
     pub(super) fn unknown_field(&mut self, unknown: &Unknown<'_, '_, '_>, mistyped: &Mistyped<'_, '_>) -> Meant {
         let &Unknown { key, value, name, item, def } = unknown;
-        // How often a texture lies on a surface.
         if RESERVED.contains(&name) && pattern_fields::of_mapping(name, value, item, def).is_none() {
             self.report(reserved(name, key.span(), def));
             return Meant::Nothing;
@@ -124,14 +123,12 @@ impl Reader<'_> {
             return Meant::Nothing;
         }
         if let Some(of_light) = hints::strength(name, def) {
-            fault.hint = of_light.to_owned();
-            self.report(fault);
+            self.report(fault.hint(of_light));
             // Whatever it stands for: that there is none need not be said too.
             return Meant::Unreadable(def.exactly_one.to_vec());
         }
         if let Some(way) = self.of_others_alone(unknown) {
-            fault.hint = way;
-            self.report(fault);
+            self.report(fault.hint(way));
             return Meant::Nothing;
         }
         let candidates = unknown.candidates(mistyped);

@@ -77,27 +77,32 @@ impl Parser<'_> {
         match number_kind(lexeme) {
             Some(kind) => self.builder.leaf(kind, start, at),
             None => {
-                let found = self.span(start, at.max(start + 1));
-                let plain = lexeme.replace(is_invisible, "");
-                let mended =
-                    mended.or_else(|| (plain.len() < lexeme.len() && number_kind(&plain).is_some()).then_some(plain));
-                let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{lexeme}` is not a number"))
-                    .expected("a number such as 3, -0.25, 1.5e3 or 1_000");
-                if lexeme.matches('.').count() > 1 {
-                    fault = fault.hint("a number has one decimal point; values are parted by commas");
-                } else if let Some(mended) = mended {
-                    let what = if lexeme.contains(' ') { "a space" } else { "the character that is not seen" };
-                    fault = fault.hint(format!("write {mended}, without {what}"));
-                    fault.edit = Some(Edit { span: found, replacement: mended });
-                } else if lexeme.len() == 1 {
-                    fault = fault.hint("write the digits after the sign, without a space");
-                } else if lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
-                    fault = fault.hint("numbers carry no unit; the reference says which unit each field has");
-                }
-                self.sink.push(fault);
-                self.builder.leaf(Kind::Broken, start, at);
+                let lexeme = lexeme.to_owned();
+                self.no_number(start, at, &lexeme, mended);
             }
         }
+    }
+
+    /// Reports what begins like a number and is none; `mended` is what was meant, where a space was too many.
+    fn no_number(&mut self, start: usize, at: usize, lexeme: &str, mended: Option<String>) {
+        let found = self.span(start, at.max(start + 1));
+        let plain = lexeme.replace(is_invisible, "");
+        let mended = mended.or_else(|| (plain.len() < lexeme.len() && number_kind(&plain).is_some()).then_some(plain));
+        let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{lexeme}` is not a number"))
+            .expected("a number such as 3, -0.25, 1.5e3 or 1_000");
+        if lexeme.matches('.').count() > 1 {
+            fault = fault.hint("a number has one decimal point; values are parted by commas");
+        } else if let Some(mended) = mended {
+            let what = if lexeme.contains(' ') { "a space" } else { "the character that is not seen" };
+            fault = fault.hint(format!("write {mended}, without {what}"));
+            fault.edit = Some(Edit { span: found, replacement: mended });
+        } else if lexeme.len() == 1 {
+            fault = fault.hint("write the digits after the sign, without a space");
+        } else if lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
+            fault = fault.hint("numbers carry no unit; the reference says which unit each field has");
+        }
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, start, at);
     }
 
     /// What follows from `start` to the bracket that closes, on one line.
