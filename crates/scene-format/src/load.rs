@@ -85,8 +85,8 @@ pub fn load_bytes(
     base_dir: &Path,
     overrides: &[Override],
 ) -> Result<Loaded, LoadError> {
-    if let Some(text) = utf16(&bytes) {
-        return Err(in_utf16(name, text));
+    if let Some((text, encoding)) = wide(&bytes) {
+        return Err(in_wide(name, text, encoding));
     }
     let text = String::from_utf8(bytes).map_err(|error| not_utf8(name, &error))?;
     load_string(name, text, syntax, base_dir, overrides)
@@ -371,11 +371,25 @@ fn utf16(bytes: &[u8]) -> Option<String> {
     Some(char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect())
 }
 
-fn in_utf16(name: &str, text: String) -> LoadError {
+/// The text of a file in UTF-32 or UTF-16, and which it is.
+fn wide(bytes: &[u8]) -> Option<(String, &'static str)> {
+    let of_four: Option<fn([u8; 4]) -> u32> = match bytes {
+        [0xff, 0xfe, 0, 0, ..] => Some(u32::from_le_bytes),
+        [0, 0, 0xfe, 0xff, ..] => Some(u32::from_be_bytes),
+        [a, 0, 0, 0, b, 0, 0, 0, ..] if *a != 0 && *b != 0 => Some(u32::from_le_bytes),
+        [0, 0, 0, a, 0, 0, 0, b, ..] if *a != 0 && *b != 0 => Some(u32::from_be_bytes),
+        _ => None,
+    };
+    let Some(of_four) = of_four else { return utf16(bytes).map(|text| (text, "UTF-16")) };
+    let signs = bytes.chunks_exact(4).map(|four| of_four([four[0], four[1], four[2], four[3]]));
+    Some((signs.map(|sign| char::from_u32(sign).unwrap_or(char::REPLACEMENT_CHARACTER)).collect(), "UTF-32"))
+}
+
+fn in_wide(name: &str, text: String, encoding: &str) -> LoadError {
     let start = if text.starts_with('\u{feff}') { 3 } else { 0 };
     let end = start + text[start..].lines().next().map_or(0, str::len);
     let span = Span { source: 0, start: start as u32, end: end as u32 };
-    let diagnostic = Diagnostic::error(codes::NOT_UTF8, span, "the file is UTF-16, not UTF-8")
+    let diagnostic = Diagnostic::error(codes::NOT_UTF8, span, format!("the file is {encoding}, not UTF-8"))
         .expected("a text file in UTF-8")
         .hint("save it as UTF-8 in your editor; in PowerShell: `.. | Out-File -Encoding utf8 FILE`");
     LoadError::Invalid {

@@ -54,10 +54,13 @@ impl<T: Into<String>> From<T> for Override {
 }
 
 /// The argument with the quotes or brackets that a shell makes hard to write: `albedo=#ff0000`, `material=gold`,
-/// `file=cat.obj`, `position=1,2,3`. `None`: it is as it is.
+/// `file=cat.obj`, `position=1,2,3`, and expressions, `fov==30+5`. `None`: it is as it is.
 fn completed(argument: &str) -> Option<String> {
     let (path, value) = argument.split_at(end_of_path(argument)? + 1);
     let value = value.trim();
+    if value.len() > 1 && value.starts_with('=') {
+        return Some(format!("{path}\"{}\"", value.replace('\\', "\\\\").replace('"', "\\\"")));
+    }
     let field = path.trim_end_matches('=').trim().rsplit('.').next()?;
     let hex = value.strip_prefix('#').is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_hexdigit()));
     let of_text = matches!(field, "material" | "file" | "placements" | "camera");
@@ -136,7 +139,7 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
     }
     ron::parse_from(argument, equals + 1, &mut builder, sink);
     if sink.errors > faults {
-        sink.diagnostics.iter_mut().skip(told).for_each(value::of_argument);
+        sink.diagnostics.iter_mut().skip(told).for_each(|fault| value::of_argument(fault, argument));
         return Ok(());
     }
     if tree.nodes.is_empty() {
@@ -318,6 +321,10 @@ impl Setter {
                 if let Some((_, value)) = found {
                     return self.find(value, *inner, rest, &format!("the {what} \"{name}\""));
                 }
+                if rest.is_empty() && item.kind() == Kind::Map {
+                    // A new name.
+                    return Ok(Some(Edited::Add(item.index(), vec![value::name(step)])));
+                }
                 let keys: Vec<String> = item.fields().map(|(key, _)| key.text().into_owned()).collect();
                 let words: Vec<&str> = keys.iter().map(String::as_str).collect();
                 let mut fault = self.fault(codes::BAD_SET_PATH, step, format!("the scene has no {what} \"{name}\""));
@@ -494,6 +501,10 @@ impl Setter {
                     .fault(codes::BAD_SET_PATH, step, format!("no {} has a field `{}`", def.noun, shortened(name)))
                     .expected(crate::read::choices(def, Syntax::Ron))),
             },
+            (Type::Map(_), What::Name(_)) if rest.is_empty() => {
+                names.push(value::name(step));
+                Ok(())
+            }
             (Type::Map(_) | Type::List(_), _) => Err(self
                 .fault(codes::BAD_SET_PATH, step, format!("{} is not written in the scene", crate::read::plain(noun)))
                 .hint("set it as a whole")),
@@ -602,6 +613,9 @@ mod tests {
             ("effects.tone_map=Filmic", "effects.tone_map=Filmic"),
             ("objects[1].material=\"gold\"", "objects[1].material=\"gold\""),
             ("camera.fov", "camera.fov"),
+            ("camera.fov==30+5", "camera.fov=\"=30+5\""),
+            ("camera.fov=\"=30+5\"", "camera.fov=\"=30+5\""),
+            ("camera.fov==", "camera.fov=="),
         ] {
             assert_eq!(Override::from(written).argument, read);
         }

@@ -61,7 +61,8 @@ JSON; kinds without
 - `--set path=value` sets any field from the command line, the value in RON: `--set camera.fov=40`,
   `--set 'materials.red=Mirror()'`, `--set objects[0].radius=2`. An object or a light with a `name` that no other has \
 is found by it,
-  in groups, too: `--set objects.lamp.radius=2`, `--set objects.\"left leg\".size=2`.
+  in groups, too: `--set objects.lamp.radius=2`, `--set objects.\"left leg\".size=2`. What begins with a second `=` is
+  an expression, `--set 'camera.fov==30+5'`; a new name is added to `vars`, `materials`, `textures` or `cameras`.
 
 ## Expressions
 

@@ -236,7 +236,9 @@ fn in_other_languages() {
     check(&[("(c -d, 0, 0)", "write \"=c -d\"")], |center| {
         format!("Scene(background: 1, objects: [{BALL}, Sphere(center: {center}, radius: 1)])")
     });
-    check(&[("\"1.0\"", "write 1")], |version| format!("Scene(version: {version}, background: 1, objects: [{BALL}])"));
+    let found = errors(&format!("Scene(version: \"1.0\", background: 1, objects: [{BALL}])"), &[]);
+    let edits: Vec<&str> = found.iter().filter_map(|fault| Some(&*fault.edit.as_ref()?.replacement)).collect();
+    assert_eq!((found.len(), edits), (1, vec!["1"]));
 }
 
 /// What is wrong with a value of `--set` is not said of a scene or a file.
@@ -257,9 +259,133 @@ fn values_of_arguments() {
         ("camera.position=(0, 1, 6", "write `)` at its end"),
         ("materials.glass.ior=2", "did you mean `\"my glass\"`?"),
         ("objects[1].material.ior=2", "'materials.\"my glass\"'"),
-        ("output.marks.B=(0, 0, 0)", "the scene has no mark \"B\""),
+        ("output.marks.B.x=2", "the scene has no mark \"B\""),
+        ("camera.fov=30+5", "write --set 'camera.fov==30+5'"),
+        ("camera.position=(0, 1+2, 3)", "write --set 'camera.position=(0, \"=1+2\", 3)'"),
+        ("materials.my.ior=2", "the scene has no material \"my\""),
     ] {
         let told = told(argument);
         assert!(told.contains(says) && !told.contains("file"), "{argument}: {told}");
     }
+}
+
+/// A value of `--set` that begins with `=` is an expression, and a new name in a map is added.
+#[test]
+fn expressions_and_names_of_arguments() {
+    let scene = format!(
+        "Scene(background: 1, materials: {{ \"red\": Diffuse(albedo: 0.5) }}, objects: [{BALL}, Box(size: 1, \
+         material: \"red\")])"
+    );
+    let load = |sets: &[&str]| {
+        let sets: Vec<Override> = sets.iter().map(|set| Override::from(*set)).collect();
+        load_str("scene", &scene, Syntax::Ron, Path::new(""), &sets).expect("right").scene
+    };
+    assert_eq!(load(&["camera.fov==30+5"]).camera.fov.value, 35.0);
+    assert_eq!(load(&["vars.x=3", "camera.fov==10*x"]).camera.fov.value, 30.0);
+    let added = load(&["materials.blue=Diffuse(albedo: 0.3)", "objects[1].material=blue"]);
+    assert!(added.materials.iter().any(|material| &*material.name.value == "blue"));
+    let quoted = load(&["materials.\"my blue\"=Mirror()", "materials[\"other one\"]=Mirror()"]);
+    let names: Vec<&str> = quoted.materials.iter().map(|material| &*material.name.value).collect();
+    assert_eq!(names, ["red", "my blue", "other one"]);
+}
+
+/// Declarations, and names in the ways of other languages.
+#[test]
+fn names_with_values_of_other_languages() {
+    let top =
+        ["let x = 3;", "let x = 3,", "var x = 3;", "const x = (1, 2, 3);", "x = 3,", "x = \"a\",", "#declare x = 3;\n"];
+    let cases: Vec<(&str, &str)> = top.iter().map(|top| (*top, "`vars`")).collect();
+    check(&cases, |top| format!("Scene({top}\n background: 1, objects: [{BALL}])"));
+    let text = format!("Scene(let x = 3; background: 1, objects: [{BALL}])");
+    assert!(errors(&text, &[]).iter().all(|fault| fault.edit.is_none()));
+    let ways = ["vars.h", "{h}", "$h", "${h}", "h", "\"$h\"", "\"{h}\"", "\"vars.h\"", "\"h\""];
+    let known: Vec<(&str, &str)> = ways.iter().map(|way| (*way, "write \"=h\"")).collect();
+    check(&known, |h| {
+        format!("Scene(background: 1, vars: {{ \"h\": 2 }}, objects: [Sphere(center: (0, {h}, 0), radius: 1)])")
+    });
+    let none: Vec<(&str, &str)> = ways[..8].iter().map(|way| (*way, "vars: { \"h\": .. }")).collect();
+    check(&none, |h| format!("Scene(background: 1, objects: [Sphere(center: (0, {h}, 0), radius: 1)])"));
+}
+
+/// Numbers, colours and texts as pages and other programs have them.
+#[test]
+fn numbers_and_colors_of_other_programs() {
+    let colors = [
+        ("rgb(80%, 20%, 10%)", "write (0.8, 0.2, 0.1)"),
+        ("(80%, 20%, 10%)", "write 0.8, 0.2, 0.1"),
+        ("(208, 58, 43)", "write \"#d03a2b\""),
+        ("(r: 1, g: 0, b: 0)", "write (1, 0, 0)"),
+        ("(1, 0, 0, 1)", "write (1, 0, 0)"),
+        ("(1, 0, 0, 0.5)", "no alpha"),
+        ("Red", "write \"#ff0000\""),
+    ];
+    check(&colors, |color| {
+        format!("Scene(background: 1, objects: [{BALL}, Box(size: 1, material: Diffuse(albedo: {color}))])")
+    });
+    let points = [
+        ("(0 1.6 6)", "write 0, 1.6, 6"),
+        ("[0 1.6 6]", "write 0, 1.6, 6"),
+        ("\"0 1.6 6\"", "write (0, 1.6, 6)"),
+        ("(0, \u{2212}35, 0)", "plain `-`"),
+        ("(0\u{ff0c}1\u{ff0c}2)", "write 0, 1, 2"),
+        ("(0\u{200b}, 1, 2)", "write 0, without"),
+        ("(0, \u{200b}1, 2)", "remove it"),
+    ];
+    check(&points, |point| format!("Scene(background: 1, objects: [Sphere(center: {point}, radius: 1)])"));
+    check(&[(",", "plain `,`")], |_| format!("Scene(background: 1\u{ff0c} objects: [{BALL}])"));
+}
+
+/// Fields and kinds that are one mistake.
+#[test]
+fn one_mistake_in_fields_and_kinds() {
+    let mesh = "points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]]";
+    let mesh = |more: &str| format!("Mesh({mesh}, {more})");
+    let turned = |step: &str| format!("Box(size: 1, transform: [{step}])");
+    let cases = [
+        (mesh("color: (1, 0, 0)"), "write `material: Diffuse(albedo: (1, 0, 0))`"),
+        (mesh("color: \"red\""), "write `material: Diffuse(albedo: \"#ff0000\")`"),
+        (mesh("smooth: true"), "write `shading: Smooth`"),
+        ("Mesh(file: \"a.obj\", vertices: [(0, 0, 0)])".to_owned(), "in its `file`"),
+        (turned("RotateX(degrees: 30)"), "write Rotate(axis: (1, 0, 0), degrees: 30)"),
+        (turned("RotateZ(angle: 30)"), "write Rotate(axis: (0, 0, 1), degrees: 30)"),
+        (turned("RotateY(radians: 1.57)"), "write Rotate(axis: (0, 1, 0), degrees: 90)"),
+        (turned("RotateZ"), "about z (0, 0, 1)"),
+        (turned("Rotate(axis: (0, 1, 0), radians: 0.785)"), "write `degrees: 45`"),
+        (turned("Rotate(axis: (0, 1, 0), radians: 1.56)"), "write `degrees: 89.38"),
+        (turned("Scale(by: 2)"), "did you mean `factor`?"),
+        ("Repeat(count: 3, object: Box(size: 1))".to_owned(), "write `items: [Box(size: 1)]`"),
+        ("Repeat(count: 3, objects: [Box(size: 1)])".to_owned(), "did you mean `items`?"),
+        (
+            "Box(size: 1, placements: [(1, 0, 0), (2, 0, 0)])".to_owned(),
+            "[[Translate((1, 0, 0))], [Translate((2, 0, 0))]]",
+        ),
+        (
+            "Box(size: 1, placements: [Translate((1, 0, 0)), Translate((2, 0, 0))])".to_owned(),
+            "[[Translate((1, 0, 0))], [Translate((2, 0, 0))]]",
+        ),
+        ("Box(size: 1, material: Red)".to_owned(), "write \"red\""),
+        ("Box(size: 1, material: Gold())".to_owned(), "Conductor(metal: Gold)"),
+        (
+            "Box(size: 1, material: Diffuse(albedo: Checkerboard(repeat: 3)))".to_owned(),
+            "write `mapping: Uv(scale: 3)`",
+        ),
+        ("Box(size: 1, material: Transparent(ior: 1.5, absorption: (1, 1, 1)))".to_owned(), "`transmittance`"),
+    ];
+    let cases: Vec<(&str, &str)> = cases.iter().map(|(written, told)| (written.as_str(), *told)).collect();
+    check(&cases, |object| {
+        let used = "Box(size: 1, material: \"red\")";
+        format!("Scene(background: 1, materials: {{ \"red\": Mirror() }}, objects: [{BALL}, {used}, {object}])")
+    });
+    let rows = "((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 5))";
+    let flat = "1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 5";
+    let cases = [
+        (format!("background: 1, camera: Camera(transform: Matrix(rows: {rows}))"), "write `matrix: ((1, 0, 0, 0)"),
+        (format!("background: 1, camera: Camera(transform: Matrix([{flat}]))"), "write `matrix: ((1, 0, 0, 0)"),
+        (format!("background: 1, camera: Camera(transform: [Matrix(rows: {rows})])"), "write `matrix: ((1, 0, 0, 0)"),
+        ("background: 1, vars: (h: 2)".to_owned(), "write { \"h\": 2 }"),
+        ("background: 1, output: \"a.png\"".to_owned(), "-o picture.png"),
+        ("background: HosekSky(turbidity: 3)".to_owned(), "no sky by numbers"),
+    ];
+    let cases: Vec<(&str, &str)> = cases.iter().map(|(written, told)| (written.as_str(), *told)).collect();
+    check(&cases, |top| format!("Scene({top}, objects: [{BALL}])"));
 }

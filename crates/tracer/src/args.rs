@@ -431,6 +431,13 @@ fn count(text: &str) -> Result<u32, String> {
     if value.fract() == 0.0 && (1.0..=1e9).contains(&value) { Ok(value as u32) } else { Err(expected()) }
 }
 
+/// A whole number that fits into so many bits: a port, a seed.
+fn whole<T: TryFrom<u64>>(text: &str) -> Result<T, String> {
+    let most = u64::MAX >> (64 - 8 * size_of::<T>().clamp(1, 8));
+    let value = text.parse::<u64>().ok().and_then(|value| T::try_from(value).ok());
+    value.ok_or_else(|| format!("expected a whole number in 0..={most}"))
+}
+
 fn size(text: &str) -> Result<Size, String> {
     let expected = || format!("expected width and height in pixels, 1 to {MAX_SIDE}, as in 640x480");
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(expected)?;

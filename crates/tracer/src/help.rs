@@ -206,7 +206,22 @@ fn option_elsewhere(option: &str) -> Option<&'static str> {
             "--frames 0-47 -o shot_####.png"
         }
         "--region" | "--cropwindow" | "--window" | "--tile" => "--crop 100,50,64,64",
+        "--watch" | "--live" | "--serve" => "`tracer preview SCENE`, which renders it again at every save",
         "--continue" | "--restart" => "--resume FILE",
+        _ => return None,
+    })
+}
+
+/// What other programs call a command of ours.
+fn command_elsewhere(word: &str) -> Option<&'static str> {
+    Some(match word.to_ascii_lowercase().as_str() {
+        "serve" | "view" | "show" | "live" | "open" | "gui" => "preview",
+        "format" | "tidy" | "pretty" => "fmt",
+        "init" | "create" | "start" => "new",
+        "test" | "snapshot" | "regress" => "golden",
+        "validate" | "lint" | "verify" => "check",
+        "diff" | "cmp" => "compare",
+        "trace" | "draw" | "make" | "run" | "animate" => "render",
         _ => return None,
     })
 }
@@ -220,7 +235,10 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
             if let Some(near) = word.as_deref().and_then(|word| near_command(word, &words)) {
                 error.insert(ContextKind::SuggestedSubcommand, ContextValue::String(near));
             }
-            word.and_then(|word| of_file(&word))
+            match word.as_deref() {
+                Some("version") => Some("the version is told by tracer --version".to_owned()),
+                word => word.and_then(of_file),
+            }
         }
         ErrorKind::UnknownArgument => {
             // An option of a command, without the command.
@@ -248,6 +266,9 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
 fn near_command(word: &str, words: &[String]) -> Option<String> {
     let cli = Cli::command();
     let of = words.first().and_then(|first| cli.find_subcommand(first)).unwrap_or(&cli);
+    if let Some(ours) = command_elsewhere(word).filter(|_| words.first().is_some_and(|first| first == word)) {
+        return Some(ours.to_owned());
+    }
     let names: Vec<&str> = of.get_subcommands().map(Command::get_name).chain(["help"]).collect();
     scene_format::nearest(word, names.iter().copied()).map(str::to_owned)
 }

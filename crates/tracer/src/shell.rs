@@ -46,8 +46,8 @@ pub fn sarif(done: bool) -> String {
 type Told = Mutex<HashSet<(Code, Span)>>;
 
 impl Shell {
-    /// Colours as asked for; automatically they are there on a terminal that can, unless NO_COLOR is set. Of warnings of
-    /// the allowed codes nothing is said.
+    /// Colours as asked for; automatically they are there on a terminal that can, unless NO_COLOR is set. Of warnings
+    /// of the allowed codes nothing is said.
     pub fn new(color: When, verbosity: Verbosity, allowed: Vec<Code>) -> Self {
         let terminal = std::io::stderr().is_terminal();
         let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());

@@ -56,17 +56,18 @@ const LINES: [(&str, &str); 37] = [
     ("Mesh", "objects: [Mesh(file: \"room.obj\", part: \"table\")]"),
     (
         "Mesh",
-        "objects: [Mesh(points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]], colors: [\"#d03020\", \"#30a040\", \
-         \"#2050c0\"])]",
+        "objects: [Mesh(points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]], \
+         colors: [\"#d03020\", \"#30a040\", \"#2050c0\"])]",
     ),
     (
         "Stop",
-        "objects: [Plane(material: Diffuse(albedo: ColorRamp(input: Noise(), stops: [Stop(at: 0, color: 0.1), Stop(at: 1, color: \"#e0b020\")])))]",
+        "objects: [Plane(material: Diffuse(albedo: ColorRamp(input: Noise(), \
+         stops: [Stop(at: 0, color: 0.1), Stop(at: 1, color: \"#e0b020\")])))]",
     ),
     (
         "Repeat",
-        "objects: [Repeat(count: 5, index: \"i\", vars: {\"x\": \"=2*i\"}, items: [Sphere(center: (\"=x\", 0, 0), radius: \
-         0.5)])]",
+        "objects: [Repeat(count: 5, index: \"i\", vars: {\"x\": \"=2*i\"}, \
+         items: [Sphere(center: (\"=x\", 0, 0), radius: 0.5)])]",
     ),
     (
         "Pick",
@@ -75,8 +76,8 @@ const LINES: [(&str, &str); 37] = [
     ),
     (
         "Ring",
-        "objects: [Box(size: 0.4, transform: [Scale(factor: 2, about: (0, 0, 0))], placements: Ring(count: 6, radius: 3, \
-         start: 15))]",
+        "objects: [Box(size: 0.4, transform: [Scale(factor: 2, about: (0, 0, 0))], \
+         placements: Ring(count: 6, radius: 3, start: 15))]",
     ),
 ];
 

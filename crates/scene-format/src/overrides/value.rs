@@ -1,12 +1,13 @@
 //! What is said of a value of `--set` that cannot be read: it stands in no file, and in no scene; and how names are
 //! written in its path.
 
+use super::{Step, What};
 use crate::codes;
 use crate::diagnostic::Diagnostic;
 use crate::read::shortened;
 
 /// A fault of a value, in words for a whole scene, in those for one value.
-pub(super) fn of_argument(fault: &mut Diagnostic) {
+pub(super) fn of_argument(fault: &mut Diagnostic, argument: &str) {
     match fault.code {
         codes::TEXT_AFTER_END => {
             fault.message = "the value ended before this".to_owned();
@@ -16,8 +17,28 @@ pub(super) fn of_argument(fault: &mut Diagnostic) {
                           own"
                 .to_owned();
         }
+        codes::BARE_EXPRESSION => {
+            // A shell takes quotes away: an expression that is all of the value needs none.
+            let written = fault.edit.as_ref().map(|edit| edit.replacement.clone());
+            let Some(written) = written.or_else(|| fault.hint.strip_prefix("write ").map(str::to_owned)) else {
+                return;
+            };
+            let (start, end) = (fault.span.start as usize, fault.span.end as usize);
+            let Some((before, after)) = argument.get(..start).zip(argument.get(end..)) else { return };
+            let whole = before.trim_end().ends_with('=') && after.trim().is_empty();
+            let written = if whole { written.trim_matches('"') } else { &written };
+            fault.hint = format!("write --set '{before}{written}{after}'");
+        }
         codes::UNCLOSED_BRACKET => fault.hint = format!("write {} at its end", fault.expected),
         _ => {}
+    }
+}
+
+/// Where a name stands in the argument, with its quotes, without brackets around them: as it is written in a map.
+pub(super) fn name(step: &Step<'_>) -> (usize, usize) {
+    match step.what {
+        What::Name(name) if step.end - step.start > name.len() + 2 => (step.start + 1, step.end - 1),
+        _ => (step.start, step.end),
     }
 }
 

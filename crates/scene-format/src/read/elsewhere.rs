@@ -1,12 +1,11 @@
-//! Values as other programs and languages write them, and how they are written here: `vec3(0, 1, 6)`, `material: red`,
-//! `RotateY(30)`.
+//! Values as other programs and languages write them, and how they are written here: `vec3(0, 1, 6)`, `material: red`.
 
 use super::Reader;
+use super::colors_elsewhere::{numbers_in_text, of_mesh};
 use super::shape_fields::one_ring;
 use super::value::{hex_color, is_picture};
 use crate::codes;
-use crate::desc::is_texture;
-use crate::desc::matrix::unnamed_rows;
+use crate::desc::{Material, is_texture};
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::expression::TEMPERATURES;
 use crate::schema::{FieldDef, StructDef};
@@ -62,6 +61,32 @@ fn rounded(value: f64) -> String {
     if (value - near).abs() < 1e-3 * value.abs().max(1.0) { format!("{near}") } else { format!("{value}") }
 }
 
+/// Radians as degrees: a multiple of 15 where the digits that are written, three or more, are its own.
+pub(super) fn degrees(radians: f64, written: &str) -> String {
+    let fraction = written.split_once('.').map_or("", |(_, fraction)| fraction);
+    let significant = written.trim_start_matches(['-', '+', '0', '.']).bytes().filter(u8::is_ascii_digit).count();
+    let plain = written.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+'));
+    let near = (radians.to_degrees() / 15.0).round() * 15.0;
+    let same = format!("{:.*}", fraction.len(), near.to_radians()) == format!("{radians:.*}", fraction.len());
+    if plain && significant >= 3 && same { format!("{near}") } else { rounded(radians.to_degrees()) }
+}
+
+/// The rows of a matrix that a transform is made of alone, as the camera has them.
+fn rows_of(value: Item<'_, '_>) -> Option<String> {
+    let mut children = value.children();
+    let only = match value.kind() {
+        Kind::List if value.name().is_none() => children.next().filter(|_| children.next().is_none())?,
+        _ => value,
+    };
+    if only.name() != Some("Matrix") {
+        return None;
+    }
+    let named = only.fields().find(|(key, _)| key.text() == "rows").map(|(_, rows)| rows.lexeme().to_owned());
+    let mut inner = only.children();
+    let mut listed = || inner.next().and_then(matrix_rows).or_else(|| matrix_rows(only));
+    named.or_else(|| listed().and_then(|rows| rows.strip_prefix("rows: ").map(str::to_owned)))
+}
+
 /// The numbers within brackets as they are written; `None` where there is anything else.
 pub(super) fn numbers<'s>(item: Item<'_, 's>) -> Option<Vec<&'s str>> {
     let numbers: Option<Vec<&str>> =
@@ -77,7 +102,7 @@ pub(super) fn matrix_rows(item: Item<'_, '_>) -> Option<String> {
 }
 
 /// The values of these fields, all of them numbers and nothing else there.
-fn fields_named<'s, const N: usize>(item: Item<'_, 's>, names: [&str; N]) -> Option<[&'s str; N]> {
+pub(super) fn fields_named<'s, const N: usize>(item: Item<'_, 's>, names: [&str; N]) -> Option<[&'s str; N]> {
     let mut values = [None; N];
     for (key, value) in item.fields().take(N + 1) {
         let at = names.iter().position(|name| key.text().eq_ignore_ascii_case(name))?;
@@ -87,8 +112,13 @@ fn fields_named<'s, const N: usize>(item: Item<'_, 's>, names: [&str; N]) -> Opt
     found.try_into().ok()
 }
 
+/// Channels by their names as a colour.
+pub(super) fn channels(item: Item<'_, '_>) -> Option<String> {
+    fields_named(item, ["r", "g", "b"]).map(|found| vector(item, &found))
+}
+
 /// The axis that a word names: `Y`, `-z`.
-fn axis(word: &str) -> Option<[&'static str; 3]> {
+pub(super) fn axis(word: &str) -> Option<[&'static str; 3]> {
     let (one, letter) = match word.strip_prefix('-') {
         Some(letter) => ("-1", letter),
         None => ("1", word.trim_start_matches('+')),
@@ -136,6 +166,7 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
             };
             found.map(|found| vector(item, &found))
         }
+        Kind::Text if let Some(mended) = numbers_in_text(item, count) => Some(mended),
         Kind::Word | Kind::Text | Kind::Char if at.rule.direction && count == 3 => {
             axis(&item.text()).map(|axis| vector(item, &axis))
         }
@@ -176,7 +207,7 @@ pub(super) fn number_elsewhere(item: Item<'_, '_>, at: &FieldDef) -> Option<Stri
     match item.name() {
         None | Some("Some" | "float" | "int" | "f32" | "f64" | "Number") => Some(only.lexeme().to_owned()),
         Some("deg" | "degrees") if at.rule.unit == "in degrees" => Some(only.lexeme().to_owned()),
-        Some("rad" | "radians") if at.rule.unit == "in degrees" => Some(rounded(value.to_degrees())),
+        Some("rad" | "radians") if at.rule.unit == "in degrees" => Some(degrees(value, only.lexeme())),
         Some(_) => None,
     }
 }
@@ -220,7 +251,26 @@ pub(super) fn field_elsewhere(
             Some((None, format!("{}{texture}", name_of("albedo"))))
         }
         "diameter" => convert("radius", |d| d / 2.0),
-        "radians" => convert("degrees", f64::to_degrees),
+        "radians" if def.field("degrees").is_some() => {
+            let degrees = degrees(value.number()?, value.lexeme());
+            Some((Some("degrees"), format!("{}{degrees}", name_of("degrees"))))
+        }
+        "smooth" | "smooth_shading" | "smoothing" | "shade_smooth" if def.field("shading").is_some() => {
+            let kind = match value.lexeme() {
+                "true" => "Smooth",
+                "false" => "Flat",
+                _ => return None,
+            };
+            let kind = if value.syntax() == Syntax::Ron { kind.to_owned() } else { format!("\"{kind}\"") };
+            Some((Some("shading"), format!("{}{kind}", name_of("shading"))))
+        }
+        "transform" | "matrix_world" | "to_world" | "camera_to_world" | "world_matrix" if def.name == "Camera" => {
+            rows_of(value).map(|rows| (None, format!("{}{rows}", name_of("matrix"))))
+        }
+        "object" | "item" | "body" | "child" if def.name == "Repeat" => {
+            Some((None, format!("{}[{}]", name_of("items"), value.lexeme())))
+        }
+        _ if let Some(mended) = of_mesh(name, value, def) => Some((None, mended)),
         "resolution" | "size" | "dimensions" | "res" | "pixels" if def.name == "Image" => {
             let [width, height] = sides(value)?;
             Some((None, format!("{}{width}, {}{height}", name_of("width"), name_of("height"))))
@@ -289,7 +339,11 @@ impl Reader<'_> {
             return true;
         }
         let bare = match item.kind() {
-            Kind::Word => lexeme.starts_with(char::is_lowercase) && !item.is_null(),
+            Kind::Word => {
+                let cased = || self.materials.nearest(lexeme).is_some_and(|known| known.eq_ignore_ascii_case(lexeme));
+                lexeme.starts_with(char::is_lowercase) && !item.is_null()
+                    || Material::DEF.variant(lexeme).is_none() && cased()
+            }
             Kind::Char => true,
             Kind::Integer | Kind::Float => self.knows_material(lexeme),
             _ => false,
@@ -314,224 +368,6 @@ impl Reader<'_> {
         }
         self.report(fault);
         true
-    }
-
-    /// A transform as other programs write it, `RotateY(30)` or `Translate(x: 1)`: reports it, and says that it did.
-    pub(crate) fn transform_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
-        let Some((name, body)) = kind_and_body(item) else { return false };
-        let Some(steps) = meant_transform(&name, body) else { return false };
-        let mended = match item.syntax() {
-            Syntax::Ron => format!("{}({})", steps.kind, steps.ron),
-            syntax => syntax.of_toml(format!("{{ {} = {} }}", steps.kind, steps.toml)).into_owned(),
-        };
-        let mut fault =
-            Diagnostic::error(codes::WRONG_TYPE, item.head(), format!("a {} is not written so", steps.noun)).expected(
-                match item.syntax() {
-                    Syntax::Ron => steps.form.to_owned(),
-                    syntax => syntax.of_toml(steps.form_of_toml).into_owned(),
-                },
-            );
-        if steps.certain {
-            fault = fault.hint(format!("write {mended}"));
-            fault.edit = Some(Edit { span: item.span(), replacement: mended });
-        } else {
-            fault = fault.hint(format!("one step turns about one axis, as in {mended}"));
-        }
-        self.report(fault);
-        true
-    }
-
-    /// Numbers where a placement stands, which is a list of transforms: reports it, and says that it did.
-    pub(crate) fn placement_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
-        let bare = matches!(item.kind(), Kind::Tuple | Kind::List) && item.name().is_none();
-        let Some(numbers) = numbers(item).filter(|_| bare) else { return false };
-        let expected = match item.syntax() {
-            Syntax::Ron => "[Translate((x, y, z))]".into(),
-            syntax => syntax.of_toml("[{ Translate = [x, y, z] }]"),
-        };
-        let message = format!("a placement is a list of transforms, not of {} numbers", numbers.len());
-        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
-        if let [x, y, z] = numbers[..] {
-            let mended = match item.syntax() {
-                Syntax::Ron => format!("[Translate(({x}, {y}, {z}))]"),
-                syntax => syntax.of_toml(format!("[{{ Translate = [{x}, {y}, {z}] }}]")).into_owned(),
-            };
-            fault = fault.hint(format!("write {mended}"));
-            fault.edit = Some(Edit { span: item.span(), replacement: mended });
-        } else {
-            fault = fault.hint("rows of numbers stand in a placements file: `placements: \"copies.txt\"`");
-        }
-        self.report(fault);
-        true
-    }
-}
-
-/// One transform without its list, as it is written here within one: `[Translate((1, 0, 0))]`; `None` where it is
-/// written in our way.
-pub(super) fn lone_transform(item: Item<'_, '_>) -> Option<String> {
-    let (name, body) = kind_and_body(item)?;
-    let lower = name.to_ascii_lowercase();
-    let three = numbers(body).filter(|_| matches!(&*lower, "translate" | "move" | "translation"));
-    let meant = match three.as_deref() {
-        Some(&[x, y, z]) => translation([x, y, z]),
-        _ => meant_transform(&name, body).filter(|meant| meant.certain)?,
-    };
-    Some(match item.syntax() {
-        Syntax::Ron => format!("[{}({})]", meant.kind, meant.ron),
-        syntax => syntax.of_toml(format!("[{{ {} = {} }}]", meant.kind, meant.toml)).into_owned(),
-    })
-}
-
-/// The name of a kind and what stands in its brackets.
-fn kind_and_body<'t, 's>(item: Item<'t, 's>) -> Option<(String, Item<'t, 's>)> {
-    match item.kind() {
-        Kind::Tuple | Kind::Struct => Some((item.name()?.to_owned(), item)),
-        Kind::Map if item.lexeme().starts_with('{') => {
-            let mut fields = item.fields();
-            let (key, value) = fields.next().filter(|_| fields.clone().next().is_none())?;
-            Some((key.text().into_owned(), value))
-        }
-        _ => None,
-    }
-}
-
-/// A transform, written in our way.
-struct Meant {
-    kind: &'static str,
-    noun: &'static str,
-    form: &'static str,
-    form_of_toml: &'static str,
-    ron: String,
-    toml: String,
-    /// Whether it is all that was meant.
-    certain: bool,
-}
-
-fn meant_transform(name: &str, body: Item<'_, '_>) -> Option<Meant> {
-    let lower = name.to_ascii_lowercase();
-    let list = matches!(body.kind(), Kind::Tuple | Kind::List).then(|| numbers(body)).flatten();
-    let named = matches!(body.kind(), Kind::Struct | Kind::Map);
-    let number = body.number().map(|_| body.lexeme()).or(match list.as_deref() {
-        Some([only]) => Some(*only),
-        _ => None,
-    });
-    if let Some(letter) = lower.strip_prefix("rotate").or(lower.strip_prefix("rot")).map(|rest| rest.trim_matches('_'))
-        && let (Some(axis), Some(degrees)) = (axis(letter), number)
-    {
-        return Some(rotation(axis, degrees, true));
-    }
-    match lower.as_str() {
-        "rotate" | "rotation" => {
-            for letter in ["x", "y", "z"] {
-                if let Some([degrees]) = fields_named(body, [letter]).filter(|_| named) {
-                    return Some(rotation(axis(letter)?, degrees, true));
-                }
-            }
-            match number {
-                Some(degrees) if !named => Some(rotation(["0", "1", "0"], degrees, false)),
-                _ => turned(body, list.as_deref()),
-            }
-        }
-        "translate" | "move" | "translation" if named => {
-            let mut by = ["0"; 3];
-            for (key, value) in body.fields().take(4) {
-                let at = ["x", "y", "z"].iter().position(|name| key.text() == **name)?;
-                by[at] = value.number().map(|_| value.lexeme())?;
-            }
-            body.fields().next()?;
-            Some(translation(by))
-        }
-        "scale" => {
-            let three = match list.as_deref() {
-                Some(&[x, y, z]) if body.name().is_some() => Some([x, y, z]),
-                _ => fields_named(body, ["x", "y", "z"]).filter(|_| named),
-            };
-            three.map(scaling)
-        }
-        "matrix" if !named => unnamed_rows(body).map(|rows| matrix(&rows)),
-        _ => None,
-    }
-}
-
-fn matrix(rows: &str) -> Meant {
-    Meant {
-        kind: "Matrix",
-        noun: "matrix",
-        form: "Matrix(rows: ((a, b, c, x), (d, e, f, y), (g, h, i, z)))",
-        form_of_toml: "{ Matrix = { rows = [[a, b, c, x], [d, e, f, y], [g, h, i, z]] } }",
-        ron: format!("rows: {rows}"),
-        toml: format!("{{ rows = {rows} }}"),
-        certain: true,
-    }
-}
-
-/// `Rotate((0, 30, 0))`, an angle an axis, `Rotate((0, 1, 0), 30)` and `Rotate(30, (0, 1, 0))`.
-fn turned(body: Item<'_, '_>, list: Option<&[&str]>) -> Option<Meant> {
-    if body.kind() != Kind::Tuple || body.name().is_none() {
-        return None;
-    }
-    let mut children = body.children();
-    let (first, second, third) = (children.next()?, children.next(), children.next());
-    if let Some(&[x, y, z]) = list {
-        return angles([x, y, z]);
-    }
-    if let (Some(_), Some(axis), None) = (first.number(), second, third)
-        && let Ok(axis) = <[&str; 3]>::try_from(numbers(axis)?)
-    {
-        return Some(rotation(axis, first.lexeme(), true));
-    }
-    let three: [&str; 3] = numbers(first).filter(|_| first.name().is_none())?.try_into().ok()?;
-    match (second, third) {
-        (None, _) => angles(three),
-        (Some(degrees), None) => degrees.number().map(|_| rotation(three, degrees.lexeme(), true)),
-        _ => None,
-    }
-}
-
-/// An angle for each axis: one step where only one is not zero.
-fn angles(degrees: [&str; 3]) -> Option<Meant> {
-    let turned = |degrees: &str| decode::number(degrees) != 0.0;
-    let count = degrees.iter().filter(|degrees| turned(degrees)).count();
-    let at = degrees.iter().position(|degrees| turned(degrees))?;
-    Some(rotation(axis(["x", "y", "z"][at])?, degrees[at], count == 1))
-}
-
-fn rotation(axis: [&str; 3], degrees: &str, certain: bool) -> Meant {
-    let axis = axis.join(", ");
-    Meant {
-        kind: "Rotate",
-        noun: "rotation",
-        form: "Rotate(axis: (x, y, z), degrees: ..)",
-        form_of_toml: "{ Rotate = { axis = [x, y, z], degrees = .. } }",
-        ron: format!("axis: ({axis}), degrees: {degrees}"),
-        toml: format!("{{ axis = [{axis}], degrees = {degrees} }}"),
-        certain,
-    }
-}
-
-fn translation(by: [&str; 3]) -> Meant {
-    let by = by.join(", ");
-    Meant {
-        kind: "Translate",
-        noun: "translation",
-        form: "Translate((x, y, z))",
-        form_of_toml: "{ Translate = [x, y, z] }",
-        ron: format!("({by})"),
-        toml: format!("[{by}]"),
-        certain: true,
-    }
-}
-
-fn scaling(factors: [&str; 3]) -> Meant {
-    let factors = factors.join(", ");
-    Meant {
-        kind: "Scale",
-        noun: "scaling",
-        form: "Scale(factor) or Scale((x, y, z))",
-        form_of_toml: "{ Scale = factor } or { Scale = [x, y, z] }",
-        ron: format!("({factors})"),
-        toml: format!("[{factors}]"),
-        certain: true,
     }
 }
 

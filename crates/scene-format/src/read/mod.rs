@@ -7,6 +7,7 @@
 mod camera;
 mod check;
 mod clock;
+mod colors_elsewhere;
 mod elsewhere;
 mod everyday;
 mod hints;
@@ -25,6 +26,7 @@ mod synonyms;
 mod textures;
 mod together;
 mod told;
+mod transforms_elsewhere;
 mod typed;
 mod unknown;
 mod unused;
@@ -282,6 +284,7 @@ impl<'r> Reader<'r> {
                     (Some(first), second, _) => return self.without_names(first, second.is_none(), def),
                 }
             }
+            Kind::Text if def.name == "Output" => return self.output_as_text(item),
             _ => {
                 let header = item.kind() == Kind::List && item.lexeme().starts_with("[[");
                 let edit = header.then(|| item.lexeme().replace("[[", "[").replace("]]", "]"));
@@ -544,7 +547,7 @@ impl<'r> Reader<'r> {
             self.report(fault);
             return None;
         }
-        let transform = || elsewhere::lone_transform(item).filter(|_| at.name == "transform");
+        let transform = || transforms_elsewhere::lone_transform(item).filter(|_| at.name == "transform");
         let edit = match item.kind() {
             _ if header => (!lexeme.starts_with("[[")).then(|| format!("[{lexeme}]")),
             Kind::Struct | Kind::Map | Kind::Tuple if item.name().is_some() || item.kind() == Kind::Map => {
@@ -561,7 +564,7 @@ impl<'r> Reader<'r> {
 
     /// Reports a value of the wrong kind for a field.
     pub(crate) fn wrong_type<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef, expected: &str) -> Option<T> {
-        self.wrong_kind(item, at.noun, expected, None)
+        self.wrong_kind(item, at.noun, expected, colors_elsewhere::in_braces(item, at))
     }
 
     pub(crate) fn wrong_kind<T>(

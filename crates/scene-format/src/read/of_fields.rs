@@ -8,7 +8,12 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
     let camera = def.name == "Camera";
     let texture = has("file") && has("mapping");
     Some(match lower {
-        "attenuation_color"
+        "absorption"
+        | "absorption_color"
+        | "sigma_a"
+        | "density"
+        | "beer_lambert"
+        | "attenuation_color"
         | "attenuation_distance"
         | "fade_color"
         | "fade_distance"

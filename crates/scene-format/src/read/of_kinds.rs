@@ -86,6 +86,14 @@ pub(super) const MATERIALS: Hints = &[
     ),
     (&["pigment", "color", "rgb"], "a colour is the `albedo` of a material: Diffuse(albedo: (0.8, 0.2, 0.1))"),
     (&["null", "none", "invisible"], "leave the object out"),
+    (
+        &["gold", "silver", "copper", "aluminum", "aluminium", "iron", "chromium", "chrome", "nickel", "titanium"],
+        "a metal is Conductor(metal: Gold), Silver, Copper, Aluminum, Iron, Chromium, Nickel, Titanium or Platinum",
+    ),
+    (
+        &["platinum", "brass", "bronze", "steel", "tin"],
+        "metals are Conductor(metal: Gold), Copper, Iron, Platinum ..: see `tracer explain Conductor`",
+    ),
     (&["thindielectric", "thintransparent"], "a pane is a thin `Box` of Transparent(ior: 1.5)"),
     (&["normalmap", "bumpmap", "bump", "displacement"], "surfaces have no bumps: they need to be in the mesh"),
 ];
@@ -164,6 +172,10 @@ pub(super) const TRANSFORMS: Hints = &[
         &["lookat", "look_at", "track", "trackto", "track_to"],
         "Align(from: (0, 0, 1), to: (1, 0, 0)) turns one direction to another; the camera alone has `look_at`",
     ),
+    (
+        &["rotatex", "rotatey", "rotatez", "rotx", "roty", "rotz"],
+        "a turn about x is Rotate(axis: (1, 0, 0), degrees: 30), about y (0, 1, 0), about z (0, 0, 1)",
+    ),
     (&["shear", "skew"], "a `Matrix` may shear: Matrix(rows: ((1, 0.5, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0)))"),
     (&["mirror", "reflect", "flip"], "a negative factor mirrors: Scale((-1, 1, 1))"),
     (
@@ -240,6 +252,9 @@ const BACKGROUNDS: Hints = &[
             "skytexture",
             "nishita",
             "hosekwilkie",
+            "hosek",
+            "hoseksky",
+            "skymodel",
             "preetham",
             "gradient",
             "skysphere",

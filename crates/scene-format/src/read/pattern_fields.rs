@@ -42,12 +42,10 @@ pub(super) fn of_mapping(
     let (kind, axes) = scaled_by(def);
     let syntax = value.syntax();
     let field = match name.to_ascii_lowercase().as_str() {
-        "scale" | "frequency" | "freq" | "density" | "tiling" | "tiles" | "count" | "fineness" => "scale",
+        "scale" | "frequency" | "freq" | "density" | "tiling" | "tiles" | "count" | "fineness" | "repeat" => "scale",
         "offset" | "translate" | "translation" | "shift" | "position" | "origin" => "offset",
         "rotate" | "rotation" | "angle" if kind == "Uv" => "rotation",
-        "uscale" | "vscale" | "u_scale" | "v_scale" | "su" | "sv" | "udelta" | "vdelta" | "to_uv" | "repeat"
-            if kind == "Uv" =>
-        {
+        "uscale" | "vscale" | "u_scale" | "v_scale" | "su" | "sv" | "udelta" | "vdelta" | "to_uv" if kind == "Uv" => {
             let written = match syntax {
                 Syntax::Ron => "Uv(scale: (u, v), offset: (u, v))".into(),
                 syntax => syntax.of_toml("{ Uv = { scale = [u, v], offset = [u, v] } }"),

@@ -68,6 +68,8 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ),
     ("metal", &["material", "preset"]),
     ("material", &["bsdf", "shader", "mat", "surface", "materials"]),
+    ("factor", &["by", "amount", "ratio", "s", "factors", "value", "size"]),
+    ("items", &["objects", "children", "contents", "elements", "list"]),
     ("materials", &["bsdfs", "shaders", "material", "mats"]),
     ("lights", &["emitters", "light_sources", "lamps", "luminaires"]),
     ("objects", &["meshes", "models", "primitives", "geometry", "entities", "geometries"]),

@@ -405,7 +405,12 @@ impl Reader<'_> {
             count => format!("a colour, or one of the {count} names in `textures`"),
         };
         fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
-        if nearest.is_none() {
+        if nearest.is_none()
+            && let Some(mended) = super::colors_elsewhere::numbers_in_text(item, 3)
+        {
+            fault.hint = format!("write {mended}");
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else if nearest.is_none() {
             fault.hint = match (self.knows_material(name), item.syntax()) {
                 (true, _) => format!("\"{}\" is a material, which has a colour of its own", shortened(name)),
                 (_, Syntax::Ron) => {

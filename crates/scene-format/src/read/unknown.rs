@@ -9,7 +9,7 @@ use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{FieldDef, StructDef, Type};
 use crate::suggest;
-use crate::syntax::{Syntax, decode};
+use crate::syntax::{Syntax, declarations, decode};
 use crate::tree::{Item, Kind};
 
 /// Words that later versions of the language will give a meaning.
@@ -84,7 +84,7 @@ impl Reader<'_> {
     /// Reports a field that there is not; gives what is meant.
     pub(super) fn unknown_field(&mut self, unknown: &Unknown<'_, '_, '_>, mistyped: &Mistyped<'_, '_>) -> Meant {
         let &Unknown { key, value, name, item, def } = unknown;
-        if RESERVED.contains(&name) {
+        if RESERVED.contains(&name) && pattern_fields::of_mapping(name, value, item, def).is_none() {
             self.report(reserved(name, key.span(), def));
             return Meant::Nothing;
         }
@@ -123,10 +123,13 @@ impl Reader<'_> {
             return Meant::Nothing;
         }
         if let Some(of_light) = hints::strength(name, def) {
-            fault.hint = of_light.to_owned();
-            self.report(fault);
+            self.report(fault.hint(of_light));
             // Whatever it stands for: that there is none need not be said too.
             return Meant::Unreadable(def.exactly_one.to_vec());
+        }
+        if let Some(way) = self.of_others_alone(unknown) {
+            self.report(fault.hint(way));
+            return Meant::Nothing;
         }
         let candidates = unknown.candidates(mistyped);
         let free = |field: &&&'static str| !unknown.is_written(field, mistyped);
@@ -158,6 +161,35 @@ impl Reader<'_> {
             None if name.starts_with('f') && def.field("aperture").is_some() => Meant::Unreadable(vec!["aperture"]),
             None => Meant::Nothing,
         }
+    }
+}
+
+impl Reader<'_> {
+    /// What is said of a field that reads like one of ours, and is none.
+    fn of_others_alone(&mut self, unknown: &Unknown<'_, '_, '_>) -> Option<String> {
+        let &Unknown { key, value, name, item, def } = unknown;
+        let written = |field: &str| item.fields().take(LOOK_AT).any(|(key, _)| key.text() == field);
+        if def.name == "Mesh" && synonyms(name, def).contains(&"points") && written("file") {
+            return Some(format!("the points of this mesh are in its `file`: remove `{name}`, or `file`"));
+        }
+        if def.name == "Scene" && value.syntax() == Syntax::Ron && synonyms(name, def).is_empty() {
+            // `x = 3`, as values get their names elsewhere: the sign between was told.
+            let (end, begin) = (key.span().end, value.span().start);
+            let is_sign = |fault: &Diagnostic| {
+                let span = fault.span;
+                fault.code == codes::MISSING_COLON
+                    && (span.source, span.start >= end, span.end <= begin) == (key.span().source, true, true)
+                    && fault.edit.is_some()
+            };
+            let near = suggest::nearest(name, names(def)).is_some();
+            let plain = matches!(value.kind(), Kind::Integer | Kind::Float | Kind::Text | Kind::Tuple | Kind::Bool);
+            let told =
+                self.sink.diagnostics.iter().position(is_sign).filter(|_| !near && plain && value.name().is_none())?;
+            self.sink.diagnostics.remove(told);
+            self.sink.errors -= 1;
+            return Some(declarations::way(name, value.lexeme()));
+        }
+        None
     }
 }
 
@@ -222,7 +254,7 @@ fn suits(value: Item<'_, '_>, kind: &Type, field: &FieldDef) -> bool {
             Kind::Bool => false,
             _ => !number,
         },
-        Type::Rows => brackets,
+        Type::Rows => brackets && value.name().is_none() && value.children().all(|row| row.name().is_none()),
         Type::Color => item != Kind::Bool,
         Type::List(inner) => brackets || matches!((item, inner), (Kind::Text, Type::File)),
         Type::Map(_) => brackets,

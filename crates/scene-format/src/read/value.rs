@@ -133,6 +133,27 @@ fn before_unit(text: &str) -> Option<&str> {
     (short && decode::number(number).is_finite()).then_some(number)
 }
 
+/// Words that stand for numbers in other programs, and are no names.
+const EVERYDAY: [&str; 17] = [
+    "none",
+    "null",
+    "nil",
+    "off",
+    "no",
+    "never",
+    "true",
+    "false",
+    "yes",
+    "on",
+    "auto",
+    "default",
+    "max",
+    "min",
+    "inf",
+    "infinite",
+    "unlimited",
+];
+
 impl Reader<'_> {
     /// `null`, as JSON has it, for a field that cannot be `None`.
     pub(super) fn null<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
@@ -158,11 +179,18 @@ impl Reader<'_> {
         if let Some(value) = self.expression(item) {
             return value.and_then(|value| self.number_of(value, item, at));
         }
+        if self.name_as_value(item, at) {
+            return None;
+        }
         let mut edit = None;
         if let Kind::Text | Kind::Word = item.kind() {
             let text = item.text();
             let trimmed = text.trim();
-            edit = trimmed.parse::<f64>().ok().filter(|v| v.is_finite()).map(|_| trimmed.to_owned());
+            edit = trimmed.parse::<f64>().ok().filter(|v| v.is_finite()).map(|value| match at.kind {
+                // `"1.0"`, of which without quotes another fault would be left.
+                Type::Integer if value.fract() == 0.0 => format!("{value}"),
+                _ => trimmed.to_owned(),
+            });
             let off = ["none", "off", "no", "never"].iter().any(|word| trimmed.eq_ignore_ascii_case(word));
             if off && matches!(at.kind, Type::Optional(Type::Number)) {
                 edit = Some(none(item.syntax()).to_owned());
@@ -175,6 +203,37 @@ impl Reader<'_> {
             edit = elsewhere::number_elsewhere(item, at);
         }
         self.wrong_kind(item, at.noun, &expected_for(at, item), edit)
+    }
+
+    /// A name with a value in the way of another language, `"$h"`, or one that has none: reported here.
+    fn name_as_value(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
+        if !matches!(item.kind(), Kind::Text | Kind::Word) {
+            return false;
+        }
+        let text = item.text();
+        let bare = text.trim();
+        let inner = bare.trim_start_matches(['$', '{', '%', '@']).trim_end_matches(['}', '%']).trim();
+        let name = inner.strip_prefix("vars.").unwrap_or(inner);
+        let marked = name.len() < bare.len();
+        let known = self.knows_var(bare);
+        // A word where nothing has a name may be one; texts and words of every day are not.
+        let word = item.kind() == Kind::Word && name.starts_with(|c: char| c.is_lowercase()) && !self.has_vars();
+        let lower = name.to_ascii_lowercase();
+        if !expression::is_name(name) || EVERYDAY.contains(&&*lower) || known || !(marked || word) {
+            return false;
+        }
+        let message = format!("{} cannot be {}", plain(at.noun), super::describe(item));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected_for(at, item));
+        if self.knows_var(name) {
+            fault.hint = format!("write \"={name}\"");
+            fault.edit = Some(Edit { span: item.span(), replacement: format!("\"={name}\"") });
+        } else if item.syntax() == Syntax::Ron {
+            fault.hint = crate::syntax::declarations::way(name, "..");
+        } else {
+            fault.hint = format!("values with names stand in `vars`, and are used so: \"={name}\"");
+        }
+        self.report(fault);
+        true
     }
 
     /// Whether a text without `=` before it is an expression of names that are known: `2*r`.
@@ -477,6 +536,12 @@ impl Reader<'_> {
         .expected(expected_for(at, item));
         if self.knows_var(text.trim()) {
             let mended = format!("\"={}\"", text.trim());
+            fault.hint = format!("write {mended}");
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            self.report(fault);
+            return None;
+        }
+        if let Some(mended) = super::colors_elsewhere::numbers_in_text(item, 3) {
             fault.hint = format!("write {mended}");
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
             self.report(fault);

@@ -88,6 +88,9 @@ impl Reader<'_> {
         if matches!(body, Body::Value(_)) && def.variants.iter().any(is_field) {
             return self.no_variant(item, def);
         }
+        if matches!(body, Body::None) && self.color_as_texture(item, def) {
+            return None;
+        }
         // What is meant is read all the same, so that what is wrong inside is told in the same run.
         let inner = match body {
             Body::None => None,
@@ -103,7 +106,7 @@ impl Reader<'_> {
         if item.is_damaged() && item.children().count() <= 1 || item.kind() == Kind::List && item.holds_damage() {
             return None;
         }
-        if self.mapping_elsewhere(item, def) {
+        if self.mapping_elsewhere(item, def) || self.color_as_texture(item, def) {
             return None;
         }
         let mut fault = Diagnostic::error(

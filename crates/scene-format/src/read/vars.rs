@@ -290,6 +290,11 @@ impl Reader<'_> {
     }
 
     /// Whether there is a var of this name.
+    /// Whether any name has a value.
+    pub(super) fn has_vars(&self) -> bool {
+        !self.vars.list.is_empty()
+    }
+
     pub(super) fn knows_var(&self, name: &str) -> bool {
         self.vars.find(name).is_some()
     }

@@ -1,7 +1,7 @@
 //! Vectors, colours and factors: three numbers, or what stands for three.
 
 use super::value::expected_for;
-use super::{Reader, describe, elsewhere, plain};
+use super::{Reader, colors_elsewhere, describe, elsewhere, plain};
 use crate::codes;
 use crate::desc::{Vec3, is_texture};
 use crate::diagnostic::{Diagnostic, Edit};
@@ -66,6 +66,9 @@ impl Reader<'_> {
             let edit = elsewhere::vector_elsewhere(item, at, N);
             return self.wrong_kind(item, at.noun, &expected_for(at, item), edit);
         }
+        if N == 3 && self.bytes_as_color(item, at) {
+            return None;
+        }
         let mut children = item.children();
         let first: [Option<Item<'_, '_>>; N] = std::array::from_fn(|_| children.next());
         let count = first.iter().flatten().count() + children.take(MANY).count();
@@ -106,6 +109,11 @@ impl Reader<'_> {
         if let Some(mended) = with_decimal_points(item, right) {
             fault = fault.hint(format!("numbers have a decimal point: {mended}"));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else if let Some(mended) = colors_elsewhere::without_alpha(item, at, right) {
+            fault = fault.hint(format!("colours have no alpha here: write {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else if at.rule.color && count == 4 {
+            fault = fault.hint("colours have no alpha here; what is seen through has the material Transparent(..)");
         }
         self.report(fault);
     }

@@ -87,7 +87,7 @@ fn names_are_given(text: &str, body: &str) -> bool {
 }
 
 /// Whether a scene seems to give a name to something: a var, or the index of a `Repeat`.
-fn is_given(text: &str, name: &str) -> bool {
+pub(super) fn is_given(text: &str, name: &str) -> bool {
     text.contains(&format!("\"{name}\""))
         || text.contains(&format!("{name} ="))
         || name == "i" && text.contains("Repeat")

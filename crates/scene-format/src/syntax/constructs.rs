@@ -1,7 +1,7 @@
 //! What other languages have in the middle of a scene: loops, and blocks of POV-Ray. Each is told once, with the way
 //! here, and passed over.
 
-use super::Syntax;
+use super::{Syntax, declarations};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 
@@ -38,7 +38,7 @@ pub(super) fn at_beginning(rest: &str, syntax: Syntax) -> Option<Construct> {
     if !rest.starts_with(|c: char| c.is_ascii_lowercase()) {
         return None;
     }
-    loop_of(rest, syntax).or_else(|| block(rest, syntax))
+    loop_of(rest, syntax).or_else(|| block(rest, syntax)).or_else(|| declaration(rest, syntax))
 }
 
 /// `for i in 0..8 { .. }`, `while (..) { .. }`, and the end of a comprehension: `for i in range(8)`.
@@ -165,6 +165,23 @@ fn block(rest: &str, syntax: Syntax) -> Option<Construct> {
         },
         hint,
         mended,
+    })
+}
+
+/// `let x = 3;`
+fn declaration(rest: &str, syntax: Syntax) -> Option<Construct> {
+    let (name, value, head, length) = declarations::declaration(rest)?;
+    let hint = match syntax {
+        Syntax::Ron => declarations::way(name, value),
+        _ => format!("values with names stand in `vars`, and are used so: \"={name}\""),
+    };
+    Some(Construct {
+        length,
+        head,
+        message: format!("`{}` is of another language", rest[..head].trim_end()),
+        expected: "fields, and names with their values in `vars`",
+        hint,
+        mended: None,
     })
 }
 

@@ -245,8 +245,12 @@ impl<'p> Parser<'p> {
         self.at += length;
         let found = self.span(start, self.at);
         let mut fault =
-            Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("JSON writes `{mended}`, not `{word}`"))
-                .hint(format!("write {mended}"));
+            Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("JSON writes `{mended}`, not `{word}`")).hint(
+                match &*mended {
+                    "null" => "write null where a field may have none; else leave the field out".to_owned(),
+                    _ => format!("write {mended}"),
+                },
+            );
         fault.edit = Some(Edit { span: found, replacement: mended });
         self.broken(start, fault);
     }

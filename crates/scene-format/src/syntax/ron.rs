@@ -145,6 +145,7 @@ impl<'p> Parser<'p> {
             }
             Some(b'(') => self.bracket(start, b'('),
             Some(b'[') => self.bracket(start, b'['),
+            Some(b'{') if self.name_elsewhere(start) => {}
             Some(b'{') => self.bracket(start, b'{'),
             Some(b'"') => self.text_or_kind(start),
             Some(b'.' | b'/') if ["../", "./", "/"].iter().any(|head| self.rest().starts_with(head)) => {
@@ -230,6 +231,10 @@ impl<'p> Parser<'p> {
     fn text_without_quotes(&mut self, start: usize, end: usize) {
         self.at = end;
         let text = self.text[start..end].trim_end_matches('"');
+        if let Some(name) = text.strip_prefix("vars.").filter(|name| expression::is_name(name)) {
+            let name = name.to_owned();
+            return self.named_value(start, end, &name);
+        }
         let found = self.span(start, self.at);
         let mut fault =
             Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("the text `{text}` is not between quotes"))
@@ -244,6 +249,9 @@ impl<'p> Parser<'p> {
         if self.angle_brackets(start) || self.bare_expression(start) {
             return;
         }
+        if matches!(self.peek(), Some(b'$' | b'@' | b'%')) && self.name_elsewhere(start) {
+            return;
+        }
         let character = self.rest().chars().next().unwrap_or(' ');
         let found = self.span(start, start + character.len_utf8());
         let mut fault = Diagnostic::error(
@@ -252,7 +260,13 @@ impl<'p> Parser<'p> {
             format!("a value cannot begin with `{}`", character.escape_debug()),
         )
         .expected("a number, a \"text\", a word, or one of ( [ {");
-        if matches!(character, '“' | '”' | '„' | '‘' | '’' | '«') {
+        let after = &self.rest()[character.len_utf8()..];
+        if matches!(character, '−' | '–' | '—' | '＋') && after.starts_with(|c: char| c.is_ascii_digit() || c == '.')
+        {
+            let sign = if character == '＋' { "+" } else { "-" };
+            fault = fault.hint(format!("write a plain `{sign}`"));
+            fault.edit = Some(Edit { span: found, replacement: sign.to_owned() });
+        } else if matches!(character, '“' | '”' | '„' | '‘' | '’' | '«') {
             fault = fault.hint("write texts between straight quotes: \"text\"");
             let inner = &self.rest()[character.len_utf8()..];
             if let Some(length) = inner.find(['“', '”', '’', '»', ',', '\n', '"'])
@@ -524,13 +538,11 @@ impl<'p> Parser<'p> {
             }
             Some(_) => {
                 if let Some(sign) = self.rest().chars().next().filter(|c| c.is_control()) {
-                    let found = self.span(self.at, self.at + sign.len_utf8());
-                    let message = format!("the character {} means nothing here", sign.escape_unicode());
-                    let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("remove it");
-                    fault.edit = Some(Edit { span: found, replacement: String::new() });
-                    self.sink.push(fault);
-                    self.at += sign.len_utf8();
+                    self.invisible(sign);
                     return self.separator();
+                }
+                if self.wide_comma() || self.without_commas(end) {
+                    return;
                 }
                 let found = self.span(end, end);
                 let semicolon = self.peek() == Some(b';');

@@ -1,6 +1,7 @@
 //! Numbers, texts and characters of RON.
 
 use super::ron::Parser;
+use super::ron_scan::{is_invisible, is_wide_comma};
 use super::{arithmetic, decode};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
@@ -33,11 +34,17 @@ impl Parser<'_> {
                 && matches!(bytes[at - 1], b'e' | b'E')
                 && at > digits
                 && !bytes[digits..].starts_with(b"0x");
+            if !byte.is_ascii() && self.text.get(at..).is_some_and(|rest| rest.starts_with(is_wide_comma)) {
+                break;
+            }
             if byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.') || sign_of_exponent || !byte.is_ascii() {
                 at += 1;
             } else {
                 break;
             }
+        }
+        if bytes.get(at).is_some_and(|byte| !byte.is_ascii()) && self.wide_commas(start) {
+            return;
         }
         let mut mended = None;
         if at == digits && digits > start {
@@ -58,6 +65,9 @@ impl Parser<'_> {
             (None, false) => (lexeme, None),
         };
         let end = at + usize::from(percent);
+        if percent && self.percentages(start) {
+            return;
+        }
         if let Some(fault) = sign.and_then(|sign| arithmetic::with_sign(number, sign, self.span(start, end))) {
             self.at = end;
             self.sink.push(fault);
@@ -67,23 +77,119 @@ impl Parser<'_> {
         match number_kind(lexeme) {
             Some(kind) => self.builder.leaf(kind, start, at),
             None => {
-                let found = self.span(start, at.max(start + 1));
-                let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{lexeme}` is not a number"))
-                    .expected("a number such as 3, -0.25, 1.5e3 or 1_000");
-                if lexeme.matches('.').count() > 1 {
-                    fault = fault.hint("a number has one decimal point; values are parted by commas");
-                } else if let Some(mended) = mended {
-                    fault = fault.hint(format!("write {mended}, without a space"));
-                    fault.edit = Some(Edit { span: found, replacement: mended });
-                } else if lexeme.len() == 1 {
-                    fault = fault.hint("write the digits after the sign, without a space");
-                } else if lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
-                    fault = fault.hint("numbers carry no unit; the reference says which unit each field has");
-                }
-                self.sink.push(fault);
-                self.builder.leaf(Kind::Broken, start, at);
+                let lexeme = lexeme.to_owned();
+                self.no_number(start, at, &lexeme, mended);
             }
         }
+    }
+
+    /// Reports what begins like a number and is none; `mended` is what was meant, where a space was too many.
+    fn no_number(&mut self, start: usize, at: usize, lexeme: &str, mended: Option<String>) {
+        let found = self.span(start, at.max(start + 1));
+        let plain = lexeme.replace(is_invisible, "");
+        let mended = mended.or_else(|| (plain.len() < lexeme.len() && number_kind(&plain).is_some()).then_some(plain));
+        let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{lexeme}` is not a number"))
+            .expected("a number such as 3, -0.25, 1.5e3 or 1_000");
+        if lexeme.matches('.').count() > 1 {
+            fault = fault.hint("a number has one decimal point; values are parted by commas");
+        } else if let Some(mended) = mended {
+            let what = if lexeme.contains(' ') { "a space" } else { "the character that is not seen" };
+            fault = fault.hint(format!("write {mended}, without {what}"));
+            fault.edit = Some(Edit { span: found, replacement: mended });
+        } else if lexeme.len() == 1 {
+            fault = fault.hint("write the digits after the sign, without a space");
+        } else if lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
+            fault = fault.hint("numbers carry no unit; the reference says which unit each field has");
+        }
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, start, at);
+    }
+
+    /// What follows from `start` to the bracket that closes, on one line.
+    fn within_brackets(&self, start: usize) -> &str {
+        let line = super::line_ahead(self.text, start);
+        line[..line.find([')', ']', '}', '/']).unwrap_or(line.len())].trim_end()
+    }
+
+    /// `(0，1，2)`: numbers parted by commas of another script, which is reported once.
+    fn wide_commas(&mut self, start: usize) -> bool {
+        let numbers = self.within_brackets(start);
+        let plain: Vec<&str> = numbers.split(|c| c == ',' || is_wide_comma(c)).map(str::trim).collect();
+        if !numbers.contains(is_wide_comma) || !plain.iter().all(|number| number_kind(number).is_some()) {
+            return false;
+        }
+        let (mended, end) = (plain.join(", "), start + numbers.len());
+        let found = self.span(start, end);
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "values are parted by plain commas")
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        self.sink.push(fault);
+        self.at = end;
+        self.builder.leaf(Kind::Broken, start, end);
+        true
+    }
+
+    /// `rgb(80%, 20%, 10%)` from its first number on, which is reported once.
+    fn percentages(&mut self, start: usize) -> bool {
+        let numbers = self.within_brackets(start);
+        let shares: Option<Vec<String>> = numbers
+            .split([',', ' '])
+            .filter(|number| !number.is_empty())
+            .map(|number| {
+                let number = number.strip_suffix('%').filter(|number| number_kind(number).is_some())?;
+                Some(format!("{}", decode::number(number) / 100.0))
+            })
+            .collect();
+        let Some(shares) = shares.filter(|shares| shares.len() > 1) else { return false };
+        let end = start + numbers.len();
+        let (mut from, mut to, mut mended) = (start, end, shares.join(", "));
+        if let Some(open) = self.open.last()
+            && self.text[open.at + 1..start].trim().is_empty()
+        {
+            // Colours of CSS have a name before their bracket.
+            let before = &self.text[..open.at];
+            let name = ["rgb", "rgba", "srgb", "color"].iter().find(|name| before.ends_with(**name));
+            if let Some(name) = name.filter(|_| self.text[end..].trim_start().starts_with(')')) {
+                from = open.at - name.len();
+                to = end + 1 + self.text[end..].find(')').unwrap_or(0);
+                mended = format!("({mended})");
+            }
+        }
+        let found = self.span(from, to);
+        let mut fault =
+            Diagnostic::error(codes::BAD_NUMBER, self.span(start, end), "shares go from 0 to 1, without signs")
+                .expected("numbers such as 0.8, 0.2, 0.1")
+                .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        self.sink.push(fault);
+        self.at = end;
+        self.builder.leaf(Kind::Broken, start, end);
+        true
+    }
+
+    /// `(0 1.6 6)` after its first number, which ends at `end`: reported once.
+    pub(super) fn without_commas(&mut self, end: usize) -> bool {
+        let Some(open) = self.open.last().map(|open| open.at + 1) else { return false };
+        let first = self.text[open..end].trim();
+        if number_kind(first).is_none() {
+            return false;
+        }
+        let rest = self.within_brackets(end);
+        let more: Vec<&str> = rest.split_whitespace().collect();
+        let after = self.text[end + rest.len()..].trim_start();
+        if more.len() < 2 || !after.starts_with([')', ']']) || more.iter().any(|number| number_kind(number).is_none()) {
+            return false;
+        }
+        let mended = format!("{first}, {}", more.join(", "));
+        let (start, last) = (end - first.len(), end + rest.len());
+        let found = self.span(start, last);
+        let mut fault = Diagnostic::error(codes::MISSING_COMMA, found, "numbers are parted by commas")
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        self.sink.push(fault);
+        self.at = last;
+        self.builder.leaf(Kind::Broken, end, last);
+        true
     }
 
     /// Arithmetic without quotes that begins here, which is reported.
@@ -304,7 +410,7 @@ pub(super) fn plain_number(bytes: &[u8]) -> Option<(usize, Kind)> {
 }
 
 /// Whether a lexeme is a number in RON, and of which kind.
-pub(super) fn number_kind(lexeme: &str) -> Option<Kind> {
+pub(crate) fn number_kind(lexeme: &str) -> Option<Kind> {
     let unsigned = lexeme.strip_prefix(['+', '-']).unwrap_or(lexeme);
     if matches!(unsigned, "inf" | "NaN" | "nan" | "infinity") {
         return Some(Kind::Float);

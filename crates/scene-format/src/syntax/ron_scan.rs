@@ -130,11 +130,34 @@ impl Parser<'_> {
                 Some(b'/' | b'-') if self.other_comment() => self.foreign_comment(),
                 Some(byte) if !byte.is_ascii() => match self.rest().chars().next() {
                     Some(c) if c.is_whitespace() => self.at += c.len_utf8(),
+                    Some(c) if is_invisible(c) => self.invisible(c),
                     _ => return,
                 },
                 _ => return,
             }
         }
+    }
+
+    /// A character that nobody sees, which is reported and passed over.
+    pub(super) fn invisible(&mut self, sign: char) {
+        let found = self.span(self.at, self.at + sign.len_utf8());
+        let message = format!("the character {} means nothing here", sign.escape_unicode());
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("remove it");
+        fault.edit = Some(Edit { span: found, replacement: String::new() });
+        self.sink.push(fault);
+        self.at += sign.len_utf8();
+    }
+
+    /// `，` or `、` between two values, which is reported.
+    pub(super) fn wide_comma(&mut self) -> bool {
+        let Some(sign) = self.rest().chars().next().filter(|c| is_wide_comma(*c)) else { return false };
+        let found = self.span(self.at, self.at + sign.len_utf8());
+        let message = format!("`{sign}` is no comma of RON");
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("write a plain `,`");
+        fault.edit = Some(Edit { span: found, replacement: ",".to_owned() });
+        self.sink.push(fault);
+        self.at += sign.len_utf8();
+        true
     }
 
     /// `#ff8800` without quotes.
@@ -348,4 +371,14 @@ impl Parser<'_> {
         let in_list = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'[';
         in_list && length > 0 && self.rest()[length..].trim_start().starts_with('(')
     }
+}
+
+/// Commas of other scripts.
+pub(super) fn is_wide_comma(c: char) -> bool {
+    matches!(c, '，' | '、' | '､')
+}
+
+/// Characters without width, which come with what is copied from pages.
+pub(super) fn is_invisible(c: char) -> bool {
+    matches!(c, '\u{200b}'..='\u{200f}' | '\u{2060}' | '\u{feff}' | '\u{ad}')
 }

@@ -293,7 +293,7 @@ mod tests {
         let shapes = [
             (UnitShape::Sphere, [0.0, 0.0, 3.8], [0.0, 0.0, 4.2]),
             (UnitShape::Capsule { half: 1.0 }, [0.0, 1.8, 4.0], [0.0, 2.2, 4.0]),
-            (UnitShape::Cone { radii: [1.0, 0.0], caps: true, upright: false }, [0.9, 0.0, 0.0], [3.1, 0.0, 0.0]),
+            (UnitShape::Cone { radii: [1.0, 0.0], caps: true, upright: false }, [0.9, 0.0, 0.0], [2.1, 0.0, 0.0]),
             (UnitShape::Cube, [0.9, 0.9, 1.9], [0.9, 1.1, 1.9]),
             (UnitShape::Plane, [9.0, 9.0, -0.1], [9.0, 9.0, 0.1]),
         ];

@@ -404,6 +404,24 @@ impl SolidObject {
         side(&self.node, &self.operands, map, extent)
     }
 
+    /// The hollows of a copy that nothing leads into: what a difference takes away within the first, and apart from all
+    /// else that it takes away.
+    pub fn hollows(&self, map: &DAffine3) -> Vec<Convex> {
+        let Node::Made(Operation::Difference, nodes) = &self.node else { return Vec::new() };
+        let [first, taken @ ..] = nodes.as_slice() else { return Vec::new() };
+        let hollow = |(k, node): (usize, &Node)| {
+            let Node::Operand(index) = node else { return None };
+            let operand = self.operands.get(*index).filter(|operand| !operand.unit.is_endless())?;
+            let whole = *map * operand.moved * operand.local;
+            let extent = Extent::of_unit(&operand.unit, &whole);
+            let lies = |node: &Node| side(node, &self.operands, map, &extent);
+            let mut others = taken.iter().enumerate().filter(|(other, _)| *other != k);
+            let is_shut = lies(first) == Side::In && others.all(|(_, other)| lies(other) == Side::Out);
+            if is_shut { Convex::of(&operand.unit, &whole) } else { None }
+        };
+        taken.iter().enumerate().filter_map(hollow).collect()
+    }
+
     /// One point per copy near what the camera looks at, in its box; of many copies of every so many, 1024 at most.
     pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
         let every = self.maps.len().div_ceil(1024).max(1);

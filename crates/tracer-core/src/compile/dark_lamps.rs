@@ -66,11 +66,11 @@ pub fn warn(desc: &SceneDesc, assigned: &Assigned, diagnostics: &mut Diagnostics
             Diagnostic::warning(codes::BLACK_PICTURE, *at, message)
                 .expected("an amount of light above 0, and a colour that is not black"),
         );
-    } else if !any && desc.objects.iter().any(|object| object.value.has_materials_of_file()) {
+    } else if !any && let Some(mesh) = desc.objects.iter().find(|object| object.value.has_materials_of_file()) {
         let unused = desc.materials.iter().any(|named| named.material.shines().is_some());
         let message = "the scene has no light, so the picture will be black";
         diagnostics.extend((!unused).then(|| {
-            Diagnostic::warning(codes::BLACK_PICTURE, Span::NONE, message)
+            Diagnostic::warning(codes::BLACK_PICTURE, mesh.span, message)
                 .expected("a light, a `background`, or an object that shines")
                 .hint("add a `SphereLight` to `lights`, or a `background`")
         }));

@@ -1,5 +1,5 @@
 //! Cameras and lamps that are shut in closed opaque bodies: balls, boxes, cylinders, cones, capsules, whatever becomes
-//! a closed mesh, and solids.
+//! a closed mesh, and solids; and in hollows of solids.
 //!
 //! Light goes in straight lines from one point to another, and none goes through what is opaque: where the camera is
 //! surely in a body and all lamps are surely beside it, all is black, and so is what a lamp does that is surely in a
@@ -161,7 +161,10 @@ fn find<'a>(desc: &'a SceneDesc, made: &Made<'a>) -> Found<'a> {
             }
         } else if let Some(solid) = solids.next_if(|solid| solid.number() == number) {
             let maps = solid.maps().iter().take(MOST_COPIES).filter(|_| opaque);
-            found.bodies.extend(maps.map(|map| (Body::Solid(solid, map), index)));
+            for map in maps {
+                found.bodies.push((Body::Solid(solid, map), index));
+                found.bodies.extend(solid.hollows(map).into_iter().map(|hollow| (Body::Convex(hollow), index)));
+            }
         } else if let Some((k, polygonal)) = flat.next_if(|(_, flat)| flat.number == number) {
             let Some(data) = made.loaded.file(k) else { continue };
             let maps = made.placed.maps_of(k).iter().take(MOST_COPIES);

@@ -32,12 +32,18 @@ Examples:
   tracer bench-figures
   tracer bench-figures 1 4 --samples 10";
 
+/// The number of a figure.
+fn figure(text: &str) -> Result<u8, String> {
+    let number = text.parse().ok().filter(|number| (1..=9).contains(number));
+    number.ok_or_else(|| "expected the number of a figure, in 1..=9".to_owned())
+}
+
 /// `tracer bench-figures`
 #[derive(Debug, Args)]
 #[command(after_help = FIGURES_EXAMPLES)]
 pub struct BenchFiguresArgs {
     /// Figures, 1 to 9 [default: all]
-    #[arg(value_name = "FIGURE", value_parser = clap::value_parser!(u8).range(1..=9))]
+    #[arg(value_name = "FIGURE", value_parser = figure)]
     pub figures: Vec<u8>,
     /// Folder of fig1.ron to fig9.ron
     #[arg(long, value_name = "FOLDER", default_value = "scenes")]

@@ -105,7 +105,7 @@ pub struct FarmSlurmArgs {
     #[arg(long, value_enum, value_name = "WHAT", hide_possible_values = true)]
     pub split: Option<SplitName>,
     /// Seed of all random choices
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = super::whole::<u32>, allow_negative_numbers = true)]
     pub seed: Option<u32>,
     /// Stops to brighten the picture by
     #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]

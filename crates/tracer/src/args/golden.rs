@@ -113,7 +113,7 @@ pub struct GoldenNewArgs {
     #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub samples: Option<u32>,
     /// Seed of all random choices
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = super::whole::<u32>, allow_negative_numbers = true)]
     pub seed: Option<u32>,
     /// Use this one of the scenes' `cameras`
     #[arg(long, value_name = "NAME")]

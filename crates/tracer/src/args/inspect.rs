@@ -29,7 +29,7 @@ pub struct InspectArgs {
     #[arg(long, value_name = "WxH", value_parser = super::size)]
     pub size: Option<super::Size>,
     /// Seed of all random choices
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = super::whole::<u32>, allow_negative_numbers = true)]
     pub seed: Option<u32>,
     /// Draw the path from above and from the side
     #[arg(long, value_name = "FILE")]

@@ -45,6 +45,7 @@ pub struct PreviewArgs {
     pub terminal: Option<TerminalName>,
     /// Port [default: one that is free]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    #[arg(value_parser = super::whole::<u16>, allow_negative_numbers = true)]
     pub port: u16,
     /// Address to listen at [default: 127.0.0.1, this computer alone]
     #[arg(long, value_name = "IP", default_value = "127.0.0.1", hide_default_value = true)]

@@ -69,7 +69,7 @@ pub struct RenderArgs {
     #[arg(help = "Parts have samples or rows [default: samples if there are enough]")]
     pub split: Option<SplitName>,
     /// Seed of all random choices
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = super::whole::<u32>, allow_negative_numbers = true)]
     pub seed: Option<u32>,
     /// Stops to brighten the picture by
     #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]

@@ -113,6 +113,7 @@ fn who_is_shut_in_is_told() {
         "Torus(radius: 6, tube_radius: 1.5)",
         "Difference(objects: [Box(center: (0, 1, 6), size: 4), Sphere(center: (1.5, 1, 6), radius: 0.5)])",
         "Union(objects: [Box(center: (0, 1, 6), size: 1), Sphere(center: (0, 1, 5), radius: 1)])",
+        "Difference(objects: [Box(center: (0, 1, 6), size: 4), Box(center: (0, 1, 6), size: 3)])",
         "Box(center: (0, 1, 6), size: 2)",
         "Box(size: 2, transform: [Rotate(axis: (0, 1, 0), degrees: 30), Translate((0, 1, 6))])",
         "Cylinder(from: (-3, 1, 6), to: (2, 1, 6), radius: 1)",
@@ -131,6 +132,7 @@ fn who_is_shut_in_is_told() {
         "Box(center: (0, 3, 0), size: 2, rounding: 0.2)",
         "Lathe(profile: [(0, 0), (1, 0), (1, 2), (0, 2)], transform: [Translate((0, 2, 0))])",
         "Difference(objects: [Box(center: (0, 3, 0), size: 4), Box(center: (0, 4.5, 0), size: 1)])",
+        "Difference(objects: [Sphere(center: (0, 3, 0), radius: 1), Sphere(center: (0, 3, 0), radius: 0.8)])",
         "Union(objects: [Box(center: (0, 3, 0), size: 2), Sphere(center: (0, 3, 0), radius: 0.8)])",
     ] {
         assert_eq!(code(&format!("background: 0.5, {lamp}"), &format!("{ball}, {solid}")), ["W0307"], "{solid}");
@@ -199,6 +201,9 @@ fn rooms_are_meant() {
     sandbox.write("open.obj", cube(true).lines().take(18).map(|line| format!("{line}\n")).collect::<String>());
     let open = "Mesh(file: \"open.obj\", transform: [Scale(factor: 4, about: (0, 0, 0)), Translate((-2, -1, 4.5))])";
     assert!(code("background: 0.5,", open).is_empty());
+    let windowed = "Difference(objects: [Box(center: (0, 1, 6), size: 4), Box(center: (0, 1, 6), size: 3), \
+                    Box(center: (0, 1, 3), size: (1, 1, 4))])";
+    assert!(code("background: 0.5,", windowed).is_empty());
     // Rays that start far from the camera, in front of it or beside it, may see into what it stands in, or out of it.
     let ball = "Sphere(center: (0, 1, 6), radius: 0.5), Sphere(center: (0, 0, 0), radius: 1)";
     let camera = |words: &str| {
@@ -248,6 +253,10 @@ fn lamps_without_light_are_told() {
     // Pictures of no light need none.
     let occlusion = scene(&light("power: 0"), ball).replace("samples: 2", "samples: 2, integrator: AmbientOcclusion()");
     assert!(codes(&sandbox, &occlusion).is_empty());
+    // Where only what a mesh brings might shine, it is told at the mesh.
+    sandbox.write("box.obj", cube(true));
+    sandbox.write("odd.ron", scene("", "Mesh(file: \"box.obj\")"));
+    sandbox.run(&["check", "odd.ron", "--diagnostics", "github"]).says(&["file=odd.ron,line=", "W0301"]);
     // That there is no light at all is told once, too.
     assert_eq!(codes(&sandbox, &scene("", ball)), ["W0301"]);
 }

@@ -57,7 +57,8 @@ pub const PROOFS: &[Proof] = &[
     proof(
         "preview",
         Asked,
-        "`tracer preview` in a real browser: saves, faults, keys, mouse, two pages, a phone, an hour of saves, 50 MB; three minutes",
+        "`tracer preview` in a real browser: saves, faults, keys, mouse, two pages, a phone, an hour of saves, 50 MB; \
+         three minutes",
         BROWSER,
         &[
             "cargo build --locked -p tracer",

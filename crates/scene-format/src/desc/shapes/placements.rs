@@ -165,6 +165,9 @@ impl Words for Placements {
         match item.kind() {
             Kind::Text => <Spanned<Arc<Path>>>::read(reader, item, at).map(|file| Placements::File(Box::new(file))),
             Kind::List => {
+                if reader.placements_elsewhere(item, at) {
+                    return None;
+                }
                 let mut list = PlacementList::default();
                 reader.items(item, at, |reader, placement| {
                     if reader.placement_elsewhere(placement) {

@@ -1,0 +1,139 @@
+//! Colours and points in the ways of other programs that are one fault with one way: bytes, alpha, texts of numbers.
+
+use super::elsewhere::{Fields, named_color, numbers};
+use super::value::{hex_color, is_picture};
+use super::{Reader, plain};
+use crate::codes;
+use crate::desc::is_texture;
+use crate::diagnostic::{Diagnostic, Edit};
+use crate::schema::{EnumDef, FieldDef, StructDef, Type};
+use crate::syntax::ron_literal::number_kind;
+use crate::syntax::{Syntax, decode};
+use crate::tree::{Item, Kind};
+
+/// The numbers of a text, `"0 1.6 6"`, in the brackets of its syntax.
+pub(super) fn numbers_in_text(item: Item<'_, '_>, count: usize) -> Option<String> {
+    if item.kind() != Kind::Text {
+        return None;
+    }
+    let text = item.text();
+    let inner = text.trim().trim_start_matches(['(', '[', '<']).trim_end_matches([')', ']', '>']);
+    let found: Vec<&str> = inner.split([' ', ',', ';']).filter(|number| !number.is_empty()).collect();
+    let all = found.len() == count && found.iter().all(|number| number_kind(number).is_some());
+    let numbers = found.join(", ");
+    all.then(|| if item.syntax() == Syntax::Ron { format!("({numbers})") } else { format!("[{numbers}]") })
+}
+
+/// What stands for a colour, as one is written here.
+pub(super) fn color(value: Item<'_, '_>) -> Option<String> {
+    let lexeme = value.lexeme();
+    match value.kind() {
+        Kind::Text | Kind::Word if let Some(hex) = named_color(&value.text()) => Some(format!("\"{hex}\"")),
+        Kind::Text if hex_color(&value.text()).is_some() => Some(lexeme.to_owned()),
+        Kind::Text if is_picture(&value.text()) => {
+            let file = Fields(value.syntax()).name("file");
+            Some(match value.syntax() {
+                Syntax::Ron => format!("Texture({file}{lexeme})"),
+                syntax => syntax.of_toml(format!("{{ Texture = {{ file = {lexeme} }} }}")).into_owned(),
+            })
+        }
+        Kind::Integer | Kind::Float => {
+            value.number().is_some_and(|grey| (0.0..=1.0).contains(&grey)).then(|| lexeme.to_owned())
+        }
+        Kind::Tuple | Kind::List if value.name().is_none() => {
+            let numbers = numbers(value).filter(|numbers| numbers.len() == 3)?;
+            numbers.iter().all(|n| (0.0..=1.0).contains(&decode::number(n))).then(|| lexeme.to_owned())
+        }
+        Kind::Tuple | Kind::Struct if value.name().is_some_and(is_texture) => Some(lexeme.to_owned()),
+        _ => None,
+    }
+}
+
+/// The field of a material for the colour of a mesh: what is written is no list of colours of its points.
+pub(super) fn of_mesh(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<String> {
+    if def.name != "Mesh" || !matches!(name, "color" | "colour" | "albedo" | "rgb" | "diffuse") {
+        return None;
+    }
+    let color = color(value)?;
+    let material = match value.syntax() {
+        Syntax::Ron => format!("Diffuse(albedo: {color})"),
+        syntax => syntax.of_toml(format!("{{ Diffuse = {{ albedo = {color} }} }}")).into_owned(),
+    };
+    Some(format!("{}{material}", Fields(value.syntax()).name("material")))
+}
+
+impl Reader<'_> {
+    /// Channels from 0 to 255, `(208, 58, 43)`, which are reported once.
+    pub(super) fn bytes_as_color(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
+        if !at.rule.color || at.rule.range.high != 1.0 {
+            return false;
+        }
+        let Some(channels) = numbers(item).filter(|numbers| numbers.len() == 3) else { return false };
+        let values: Vec<f64> = channels.iter().map(|number| decode::number(number)).collect();
+        let bytes = values.iter().all(|value| value.fract() == 0.0 && (0.0..=255.0).contains(value));
+        if !bytes || values.iter().all(|value| *value <= 2.0) {
+            return false;
+        }
+        let hex: String = values.iter().map(|value| format!("{:02x}", *value as u8)).collect();
+        let message = format!("the channels of {} must be at most 1", plain(at.noun));
+        let mut fault = Diagnostic::error(codes::OUT_OF_RANGE, item.span(), message)
+            .expected(super::value::expected_for(at, item))
+            .hint(format!("channels go from 0 to 1; of values up to 255 write \"#{hex}\""));
+        fault.edit = Some(Edit { span: item.span(), replacement: format!("\"#{hex}\"") });
+        self.report(fault);
+        true
+    }
+
+    /// The name of a picture where the output stands.
+    pub(super) fn output_as_text<T>(&mut self, item: Item<'_, '_>) -> Option<T> {
+        let message = format!("the output cannot be {}", super::describe(item));
+        let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+            .expected("Output(alpha: true), and its other fields");
+        let hint = "the picture's name stands on the command line: tracer render scene.ron -o picture.png";
+        self.report(fault.hint(hint));
+        None
+    }
+
+    /// Channels with names, `(r: 1, g: 0, b: 0)`, or the name of a colour, where a texture stands: reported here.
+    pub(super) fn color_as_texture(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> bool {
+        if def.noun != "texture" {
+            return false;
+        }
+        let mended = match item.kind() {
+            Kind::Struct | Kind::Map => super::elsewhere::channels(item),
+            Kind::Word => named_color(item.lexeme()).map(|hex| format!("\"{hex}\"")),
+            _ => None,
+        };
+        let Some(mended) = mended else { return false };
+        let message = format!("a colour cannot be {}", super::describe(item));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+            .expected("a colour: (r, g, b), one number for grey, or \"#rrggbb\"")
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        true
+    }
+}
+
+/// A colour whose fourth number is an alpha of 1, without it.
+pub(super) fn without_alpha(item: Item<'_, '_>, at: &FieldDef, right: usize) -> Option<String> {
+    let numbers = numbers(item).filter(|numbers| at.rule.color && right == 3 && numbers.len() == 4)?;
+    let inner = numbers[..3].join(", ");
+    let opaque = decode::number(numbers[3]) == 1.0;
+    opaque.then(|| if item.syntax() == Syntax::Ron { format!("({inner})") } else { format!("[{inner}]") })
+}
+
+/// `{ "h": 2 }` for `(h: 2)`, names with their values in the brackets of fields.
+pub(super) fn in_braces(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    if !matches!(at.kind, Type::Map(_))
+        || item.kind() != Kind::Struct
+        || item.name().is_some()
+        || item.syntax() != Syntax::Ron
+    {
+        return None;
+    }
+    const MOST: usize = 20;
+    let entries: Vec<String> =
+        item.fields().take(MOST + 1).map(|(key, value)| format!("\"{}\": {}", key.text(), value.lexeme())).collect();
+    (entries.len() <= MOST).then(|| format!("{{ {} }}", entries.join(", ")))
+}

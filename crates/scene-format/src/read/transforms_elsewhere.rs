@@ -1,0 +1,273 @@
+//! Transforms and placements in the ways of other programs: `RotateY(30)`, `Translate(x: 1)`, `[(1, 0, 0)]`.
+
+use super::Reader;
+use super::elsewhere::{axis, degrees, fields_named, numbers};
+use crate::codes;
+use crate::desc::matrix::unnamed_rows;
+use crate::diagnostic::{Diagnostic, Edit};
+use crate::schema::FieldDef;
+use crate::syntax::{Syntax, decode};
+use crate::tree::{Item, Kind};
+
+/// Transforms as they are written here.
+const TRANSFORMS: [&str; 4] = ["Translate", "Rotate", "Scale", "Matrix"];
+
+impl Reader<'_> {
+    /// A transform as other programs write it, `RotateY(30)` or `Translate(x: 1)`: reports it, and says that it did.
+    pub(crate) fn transform_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
+        let Some((name, body)) = kind_and_body(item) else { return false };
+        let Some(steps) = meant_transform(&name, body) else { return false };
+        let mended = match item.syntax() {
+            Syntax::Ron => format!("{}({})", steps.kind, steps.ron),
+            syntax => syntax.of_toml(format!("{{ {} = {} }}", steps.kind, steps.toml)).into_owned(),
+        };
+        let mut fault =
+            Diagnostic::error(codes::WRONG_TYPE, item.head(), format!("a {} is not written so", steps.noun)).expected(
+                match item.syntax() {
+                    Syntax::Ron => steps.form.to_owned(),
+                    syntax => syntax.of_toml(steps.form_of_toml).into_owned(),
+                },
+            );
+        if steps.certain {
+            fault = fault.hint(format!("write {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else {
+            fault = fault.hint(format!("one step turns about one axis, as in {mended}"));
+        }
+        self.report(fault);
+        true
+    }
+
+    /// A list of points or of single transforms where one of placements stands, `[(1, 0, 0), (2, 0, 0)]`: told once.
+    pub(crate) fn placements_elsewhere(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
+        // More than these are told one by one.
+        const MOST: usize = 20;
+        let mut children = item.children();
+        let right =
+            |first: Item<'_, '_>| first.kind() == Kind::List && first.children().any(|step| step.number().is_none());
+        if children.next().is_none_or(right) || children.next().is_none() || children.nth(MOST - 2).is_some() {
+            return false;
+        }
+        let placement = |child: Item<'_, '_>| {
+            let point = numbers(child).filter(|numbers| child.name().is_none() && numbers.len() == 3);
+            let Some(numbers) = point else {
+                let certain = child.name().is_some() && TRANSFORMS.contains(&child.name().unwrap_or_default());
+                return certain.then(|| format!("[{}]", child.lexeme()));
+            };
+            let by = numbers.join(", ");
+            Some(match child.syntax() {
+                Syntax::Ron => format!("[Translate(({by}))]"),
+                syntax => syntax.of_toml(format!("[{{ Translate = [{by}] }}]")).into_owned(),
+            })
+        };
+        let Some(all) = item.children().map(placement).collect::<Option<Vec<String>>>() else { return false };
+        let mended = format!("[{}]", all.join(", "));
+        let message = format!("{} are lists of transforms, one list for each copy", super::plain(at.noun));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+            .expected(super::value::expected_for(at, item))
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        true
+    }
+
+    /// Numbers where a placement stands, which is a list of transforms: reports it, and says that it did.
+    pub(crate) fn placement_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
+        let bare = matches!(item.kind(), Kind::Tuple | Kind::List) && item.name().is_none();
+        let Some(numbers) = numbers(item).filter(|_| bare) else { return false };
+        let expected = match item.syntax() {
+            Syntax::Ron => "[Translate((x, y, z))]".into(),
+            syntax => syntax.of_toml("[{ Translate = [x, y, z] }]"),
+        };
+        let message = format!("a placement is a list of transforms, not of {} numbers", numbers.len());
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
+        if let [x, y, z] = numbers[..] {
+            let mended = match item.syntax() {
+                Syntax::Ron => format!("[Translate(({x}, {y}, {z}))]"),
+                syntax => syntax.of_toml(format!("[{{ Translate = [{x}, {y}, {z}] }}]")).into_owned(),
+            };
+            fault = fault.hint(format!("write {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else {
+            fault = fault.hint("rows of numbers stand in a placements file: `placements: \"copies.txt\"`");
+        }
+        self.report(fault);
+        true
+    }
+}
+
+/// One transform without its list, as it is written here within one: `[Translate((1, 0, 0))]`; `None` where it is
+/// written in our way.
+pub(super) fn lone_transform(item: Item<'_, '_>) -> Option<String> {
+    let (name, body) = kind_and_body(item)?;
+    let lower = name.to_ascii_lowercase();
+    let three = numbers(body).filter(|_| matches!(&*lower, "translate" | "move" | "translation"));
+    let meant = match three.as_deref() {
+        Some(&[x, y, z]) => translation([x, y, z]),
+        _ => meant_transform(&name, body).filter(|meant| meant.certain)?,
+    };
+    Some(match item.syntax() {
+        Syntax::Ron => format!("[{}({})]", meant.kind, meant.ron),
+        syntax => syntax.of_toml(format!("[{{ {} = {} }}]", meant.kind, meant.toml)).into_owned(),
+    })
+}
+
+/// The name of a kind and what stands in its brackets.
+fn kind_and_body<'t, 's>(item: Item<'t, 's>) -> Option<(String, Item<'t, 's>)> {
+    match item.kind() {
+        Kind::Tuple | Kind::Struct => Some((item.name()?.to_owned(), item)),
+        Kind::Map if item.lexeme().starts_with('{') => {
+            let mut fields = item.fields();
+            let (key, value) = fields.next().filter(|_| fields.clone().next().is_none())?;
+            Some((key.text().into_owned(), value))
+        }
+        _ => None,
+    }
+}
+
+/// A transform, written in our way.
+struct Meant {
+    kind: &'static str,
+    noun: &'static str,
+    form: &'static str,
+    form_of_toml: &'static str,
+    ron: String,
+    toml: String,
+    /// Whether it is all that was meant.
+    certain: bool,
+}
+
+fn meant_transform(name: &str, body: Item<'_, '_>) -> Option<Meant> {
+    let lower = name.to_ascii_lowercase();
+    let list = matches!(body.kind(), Kind::Tuple | Kind::List).then(|| numbers(body)).flatten();
+    let named = matches!(body.kind(), Kind::Struct | Kind::Map);
+    let number = body.number().map(|_| body.lexeme()).or(match list.as_deref() {
+        Some([only]) => Some(*only),
+        _ => None,
+    });
+    // `RotateX(degrees: 30)`; asked of names with an axis alone.
+    let in_degrees = || {
+        let all = ["degrees", "angle", "deg", "by", "theta", "value"];
+        let found = all.iter().find_map(|field| fields_named(body, [*field])).map(|[degrees]| degrees.to_owned());
+        let radians = || fields_named(body, ["radians"]).map(|[radians]| degrees(decode::number(radians), radians));
+        found.or_else(radians).or(number.map(str::to_owned))
+    };
+    if let Some(letter) = lower.strip_prefix("rotate").or(lower.strip_prefix("rot")).map(|rest| rest.trim_matches('_'))
+        && let (Some(axis), Some(degrees)) = (axis(letter), in_degrees())
+    {
+        return Some(rotation(axis, &degrees, true));
+    }
+    match lower.as_str() {
+        "rotate" | "rotation" => {
+            for letter in ["x", "y", "z"] {
+                if let Some([degrees]) = fields_named(body, [letter]).filter(|_| named) {
+                    return Some(rotation(axis(letter)?, degrees, true));
+                }
+            }
+            match number {
+                Some(degrees) if !named => Some(rotation(["0", "1", "0"], degrees, false)),
+                _ => turned(body, list.as_deref()),
+            }
+        }
+        "translate" | "move" | "translation" if named => {
+            let mut by = ["0"; 3];
+            for (key, value) in body.fields().take(4) {
+                let at = ["x", "y", "z"].iter().position(|name| key.text() == **name)?;
+                by[at] = value.number().map(|_| value.lexeme())?;
+            }
+            body.fields().next()?;
+            Some(translation(by))
+        }
+        "scale" => {
+            let three = match list.as_deref() {
+                Some(&[x, y, z]) if body.name().is_some() => Some([x, y, z]),
+                _ => fields_named(body, ["x", "y", "z"]).filter(|_| named),
+            };
+            three.map(scaling)
+        }
+        "matrix" if !named => unnamed_rows(body).map(|rows| matrix(&rows)),
+        _ => None,
+    }
+}
+
+fn matrix(rows: &str) -> Meant {
+    Meant {
+        kind: "Matrix",
+        noun: "matrix",
+        form: "Matrix(rows: ((a, b, c, x), (d, e, f, y), (g, h, i, z)))",
+        form_of_toml: "{ Matrix = { rows = [[a, b, c, x], [d, e, f, y], [g, h, i, z]] } }",
+        ron: format!("rows: {rows}"),
+        toml: format!("{{ rows = {rows} }}"),
+        certain: true,
+    }
+}
+
+/// `Rotate((0, 30, 0))`, an angle an axis, `Rotate((0, 1, 0), 30)` and `Rotate(30, (0, 1, 0))`.
+fn turned(body: Item<'_, '_>, list: Option<&[&str]>) -> Option<Meant> {
+    if body.kind() != Kind::Tuple || body.name().is_none() {
+        return None;
+    }
+    let mut children = body.children();
+    let (first, second, third) = (children.next()?, children.next(), children.next());
+    if let Some(&[x, y, z]) = list {
+        return angles([x, y, z]);
+    }
+    if let (Some(_), Some(axis), None) = (first.number(), second, third)
+        && let Ok(axis) = <[&str; 3]>::try_from(numbers(axis)?)
+    {
+        return Some(rotation(axis, first.lexeme(), true));
+    }
+    let three: [&str; 3] = numbers(first).filter(|_| first.name().is_none())?.try_into().ok()?;
+    match (second, third) {
+        (None, _) => angles(three),
+        (Some(degrees), None) => degrees.number().map(|_| rotation(three, degrees.lexeme(), true)),
+        _ => None,
+    }
+}
+
+/// An angle for each axis: one step where only one is not zero.
+fn angles(degrees: [&str; 3]) -> Option<Meant> {
+    let turned = |degrees: &str| decode::number(degrees) != 0.0;
+    let count = degrees.iter().filter(|degrees| turned(degrees)).count();
+    let at = degrees.iter().position(|degrees| turned(degrees))?;
+    Some(rotation(axis(["x", "y", "z"][at])?, degrees[at], count == 1))
+}
+
+fn rotation(axis: [&str; 3], degrees: &str, certain: bool) -> Meant {
+    let axis = axis.join(", ");
+    Meant {
+        kind: "Rotate",
+        noun: "rotation",
+        form: "Rotate(axis: (x, y, z), degrees: ..)",
+        form_of_toml: "{ Rotate = { axis = [x, y, z], degrees = .. } }",
+        ron: format!("axis: ({axis}), degrees: {degrees}"),
+        toml: format!("{{ axis = [{axis}], degrees = {degrees} }}"),
+        certain,
+    }
+}
+
+fn translation(by: [&str; 3]) -> Meant {
+    let by = by.join(", ");
+    Meant {
+        kind: "Translate",
+        noun: "translation",
+        form: "Translate((x, y, z))",
+        form_of_toml: "{ Translate = [x, y, z] }",
+        ron: format!("({by})"),
+        toml: format!("[{by}]"),
+        certain: true,
+    }
+}
+
+fn scaling(factors: [&str; 3]) -> Meant {
+    let factors = factors.join(", ");
+    Meant {
+        kind: "Scale",
+        noun: "scaling",
+        form: "Scale(factor) or Scale((x, y, z))",
+        form_of_toml: "{ Scale = factor } or { Scale = [x, y, z] }",
+        ron: format!("({factors})"),
+        toml: format!("[{factors}]"),
+        certain: true,
+    }
+}
