@@ -3,6 +3,7 @@
 #![allow(clippy::result_large_err, reason = "an argument is read once, and a wrong one ends the run")]
 
 mod named;
+mod steps;
 mod value;
 
 use crate::codes;
@@ -16,6 +17,7 @@ use crate::syntax::{Sink, Syntax, ron, span};
 use crate::tree::{Builder, Item, Kind, Node, Text, Tree};
 use crate::words::Words;
 use std::path::Path;
+use steps::{Step, What, end_of_path, steps};
 
 /// An argument of `--set`: `camera.fov=40`, `materials.glass=Transparent(ior: 1.6)`, `objects[2].radius=3`. The value
 /// is written in RON, whatever the scene file is written in.
@@ -73,20 +75,6 @@ fn completed(argument: &str) -> Option<String> {
     }
     let numbers = value.split(',').filter(|number| number.trim().parse::<f64>().is_ok()).count();
     (numbers > 1 && numbers == value.split(',').count()).then(|| format!("{path}({value})"))
-}
-
-/// One step of a path: where it stands in the argument, and what it says.
-#[derive(Clone, Debug)]
-struct Step<'a> {
-    start: usize,
-    end: usize,
-    what: What<'a>,
-}
-
-#[derive(Clone, Debug)]
-enum What<'a> {
-    Name(&'a str),
-    Index(usize),
 }
 
 /// More overrides than this are not taken.
@@ -147,64 +135,6 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
         tree.nodes.push(Node { start: 0, end: 0, size: 1, source: 0, kind: Kind::Struct });
     }
     Setter { source, value: builder.nodes.iter().collect() }.set(tree, &steps)
-}
-
-/// The first `=` outside quotes and brackets.
-fn end_of_path(argument: &str) -> Option<usize> {
-    let mut quoted = false;
-    for (at, byte) in argument.bytes().enumerate() {
-        match byte {
-            b'"' => quoted = !quoted,
-            b'=' if !quoted => return Some(at),
-            _ => {}
-        }
-    }
-    None
-}
-
-/// Splits `objects[2].radius`, `materials."my glass".ior`, `materials["my glass"]`.
-fn steps(path: &str, source: u16) -> Result<Vec<Step<'_>>, Diagnostic> {
-    let bad = |start: usize, end: usize, message: &str| {
-        Err(Diagnostic::error(codes::BAD_SET_SYNTAX, span(source, start, end), message)
-            .expected("names joined by points, and numbers in brackets: objects[2].radius"))
-    };
-    let mut steps = Vec::new();
-    let mut at = 0;
-    loop {
-        at += path[at..].len() - path[at..].trim_start().len();
-        let rest = &path[at..];
-        if let Some(quoted) = rest.strip_prefix('"') {
-            let Some(length) = quoted.find('"') else { return bad(at, path.len(), "this quote is never closed") };
-            steps.push(Step { start: at, end: at + length + 2, what: What::Name(&quoted[..length]) });
-            at += length + 2;
-        } else if let Some(inner) = rest.strip_prefix('[') {
-            let Some(length) = inner.find(']') else { return bad(at, path.len(), "this bracket is never closed") };
-            let index = inner[..length].trim();
-            let end = at + length + 2;
-            let what = match (index.strip_prefix('"').and_then(|i| i.strip_suffix('"')), index.parse()) {
-                (Some(name), _) => What::Name(name),
-                (None, Ok(index)) => What::Index(index),
-                _ => return bad(at, end, "in brackets stands the number of an item, counted from 0"),
-            };
-            steps.push(Step { start: at, end, what });
-            at = end;
-        } else {
-            let length = rest.find(['.', '[']).unwrap_or(rest.len());
-            let name = rest[..length].trim_end();
-            if name.is_empty() {
-                return bad(at.min(path.len()), path.len().max(at), "a name is missing in this path");
-            }
-            steps.push(Step { start: at, end: at + name.len(), what: What::Name(name) });
-            at += length;
-        }
-        match path[at..].bytes().next() {
-            None => return Ok(steps),
-            Some(b'.') => at += 1,
-            Some(b'[') => {}
-            Some(_) if path[at..].trim().is_empty() => return Ok(steps),
-            Some(_) => return bad(at, path.len(), "a point or a bracket is missing in this path"),
-        }
-    }
 }
 
 /// What the edit of the tape will be.

@@ -196,7 +196,7 @@ impl<'r> Reader<'r> {
                 Step::Field(name) if out.is_empty() => write!(out, "{name}"),
                 Step::Field(name) => write!(out, ".{name}"),
                 Step::Index(index) => write!(out, "[{index}]"),
-                Step::Key(key) if is_plain(key) => write!(out, ".{key}"),
+                Step::Key(key) if unknown::is_plain(key) => write!(out, ".{key}"),
                 Step::Key(key) => write!(out, "[\"{key}\"]"),
             };
         }
@@ -595,8 +595,4 @@ impl<'r> Reader<'r> {
 
 pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static str> {
     def.fields.iter().map(|field| field.name)
-}
-
-fn is_plain(key: &str) -> bool {
-    !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_')
 }

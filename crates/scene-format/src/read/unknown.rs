@@ -263,3 +263,8 @@ fn suits(value: Item<'_, '_>, kind: &Type, field: &FieldDef) -> bool {
         _ => true,
     }
 }
+
+/// Whether a key needs no quotes in a path.
+pub(super) fn is_plain(key: &str) -> bool {
+    !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_')
+}
