@@ -86,8 +86,12 @@ fn every_example_of_the_reference_renders() {
                 if text.starts_with(char::is_lowercase)
                     && !examples.iter().any(|e| e.ron.contains(text.trim_end())) =>
             {
-                let object = "Sphere(center: (0, 1, 0), radius: 1, material: Emissive(radiance: 1), name: \"ball\")";
-                let scene = format!("Scene({}, objects: [{object}])", text.trim_end());
+                let ball = "Sphere(center: (0, 1, 0), radius: 1, material: Emissive(radiance: 1), name: \"ball\")";
+                let rest = match text.starts_with("objects") {
+                    true => "background: 1".to_owned(),
+                    false => format!("objects: [{ball}]"),
+                };
+                let scene = format!("Scene({}, {rest})", text.trim_end());
                 picture("the reference", &scene, Syntax::Ron, Path::new(""));
                 parts += 1;
             }
