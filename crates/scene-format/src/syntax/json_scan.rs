@@ -1,17 +1,14 @@
 //! Characters of JSON: white space, comments, which it has none of, words, and the ways past what cannot be read.
 
 use super::json::Parser;
-use super::span;
+use super::{means_nothing, span};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 
 impl<'p> Parser<'p> {
     pub(super) fn control_character(&mut self, sign: char) {
         let found = self.span(self.at, self.at + sign.len_utf8());
-        let message = format!("the character {} means nothing here", sign.escape_unicode());
-        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("remove it");
-        fault.edit = Some(Edit { span: found, replacement: String::new() });
-        self.sink.push(fault);
+        self.sink.push(means_nothing(found, sign));
         self.at += sign.len_utf8();
     }
 

@@ -24,7 +24,8 @@ mod toml_literal;
 mod toml_names;
 mod toml_tables;
 
-use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS, Span, too_many};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit, MAX_DIAGNOSTICS, Span, too_many};
 use crate::files::Files;
 use crate::tape::Tape;
 use crate::tree::{Builder, Kind, Text, Tree};
@@ -181,6 +182,14 @@ pub(crate) fn is_json_number(lexeme: &str) -> bool {
 /// A span of `usize` bytes in source `source`.
 pub(crate) fn span(source: u16, start: usize, end: usize) -> Span {
     Span { source: u32::from(source), start: start as u32, end: end as u32 }
+}
+
+/// A character that nobody sees.
+fn means_nothing(found: Span, sign: char) -> Diagnostic {
+    let message = format!("the character {} means nothing here", sign.escape_unicode());
+    let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("remove it");
+    fault.edit = Some(Edit { span: found, replacement: String::new() });
+    fault
 }
 
 /// The tree of a text, whatever is wrong with it.

@@ -2,7 +2,7 @@
 
 use super::ron::Parser;
 use super::ron_literal::number_kind;
-use super::{arithmetic, constructs, span};
+use super::{arithmetic, constructs, means_nothing, span};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::expression;
@@ -141,10 +141,7 @@ impl Parser<'_> {
     /// A character that nobody sees, which is reported and passed over.
     pub(super) fn invisible(&mut self, sign: char) {
         let found = self.span(self.at, self.at + sign.len_utf8());
-        let message = format!("the character {} means nothing here", sign.escape_unicode());
-        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("remove it");
-        fault.edit = Some(Edit { span: found, replacement: String::new() });
-        self.sink.push(fault);
+        self.sink.push(means_nothing(found, sign));
         self.at += sign.len_utf8();
     }
 

@@ -61,6 +61,8 @@ struct Found<'a> {
     bodies: Vec<(Body<'a>, usize)>,
     meshes: Vec<MeshBody<'a>>,
     lamps: Vec<Lamp>,
+    /// There are lamps that are not among these: too many copies.
+    has_more_lamps: bool,
 }
 
 /// Warns of them, of each body once.
@@ -83,7 +85,11 @@ pub fn warn(desc: &SceneDesc, made: &Made<'_>, diagnostics: &mut Diagnostics) {
     for (body, index) in &found.bodies {
         let of_object = desc.objects[*index].span;
         match side(body, &eye) {
-            Side::In if !is_shut_in && found.lamps.iter().all(|lamp| side(body, &lamp.extent) == Side::Out) => {
+            Side::In
+                if !is_shut_in
+                    && !found.has_more_lamps
+                    && found.lamps.iter().all(|lamp| side(body, &lamp.extent) == Side::Out) =>
+            {
                 is_shut_in = true;
                 diagnostics.push(
                     Diagnostic::warning(
@@ -154,6 +160,7 @@ fn find<'a>(desc: &'a SceneDesc, made: &Made<'a>) -> Found<'a> {
         if let Some(curved) = curved.next_if(|curved| curved.number == number) {
             let maps = curved.maps.iter().take(MOST_COPIES);
             if shines {
+                found.has_more_lamps |= curved.maps.len() > MOST_COPIES;
                 found.lamps.extend(maps.map(|map| lamp(Extent::of_unit(&curved.unit, map))));
             } else if opaque && curved.unit != shapes::UnitShape::Plane {
                 let bodies = maps.filter_map(|map| Convex::of(&curved.unit, map));
@@ -171,6 +178,7 @@ fn find<'a>(desc: &'a SceneDesc, made: &Made<'a>) -> Found<'a> {
             let corners = made.placed.box_of(k);
             let own = own_materials(&polygonal, data);
             if shines || own.clone().any(|material| material.shines().is_some()) {
+                found.has_more_lamps |= made.placed.maps_of(k).len() > MOST_COPIES;
                 found.lamps.extend(maps.map(|map| lamp(Extent::of_box(corners, map))));
             } else if opaque && !own.clone().any(Material::transmits) {
                 found.add_bodies(&polygonal, data, corners, maps);
