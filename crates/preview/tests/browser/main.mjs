@@ -156,6 +156,8 @@ const tests = {
 
   async "pixels and layers"({ page }) {
     await phase(page, "done");
+    // What the pointer met in the tests before is not waited for.
+    await page.evaluate(() => document.getElementById("pixelRows").replaceChildren());
     await page.mouse.move(490, 420);
     await page.waitForFunction(() => /objects\[0\] Sphere/.test(document.getElementById("pixelRows").textContent));
     const said = await text(page, "pixelRows");
