@@ -6,8 +6,8 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::time::Duration;
-use tracer_bench::{balls, copies, hills, lamps, rendered};
 use tracer_core::Scene;
+use xtask::instructions::scenes::{balls, copies, hills, lamps, rendered};
 
 const SIZE: u32 = 256;
 

@@ -1,7 +1,7 @@
 //! Programs that make what the repository holds, and those that try it: [`mutants`] its tests, [`truth`],
-//! [`sweeps`] and [`mod@denoise`] its pictures, [`layers`] its source, [`site`] its manual, [`musl`] the program that
-//! needs nothing else, [`prove`] all that takes longer. [`cat`] and [`gallery`] are pure functions from nothing to
-//! files: no randomness, no network.
+//! [`sweeps`] and [`mod@denoise`] its pictures, [`instructions`] its hot paths, [`layers`] its source, [`site`] its
+//! manual, [`musl`] the program that needs nothing else, [`prove`] all that takes longer. [`cat`] and [`gallery`] are
+//! pure functions from nothing to files: no randomness, no network.
 
 #![forbid(unsafe_code)]
 
@@ -9,6 +9,7 @@ pub mod cat;
 pub mod denoise;
 mod file;
 pub mod gallery;
+pub mod instructions;
 pub mod layers;
 pub mod musl;
 pub mod mutants;

@@ -31,6 +31,15 @@ enum Command {
         /// Scene files instead of the ten.
         files: Vec<std::path::PathBuf>,
     },
+    /// Counts the instructions of hot paths by valgrind, and fails where one takes more than it may; some minutes.
+    Instructions {
+        /// Only paths whose names contain this.
+        #[arg(default_value = "")]
+        name: String,
+        /// Runs one path, as valgrind is told to.
+        #[arg(long, hide = true, value_name = "NAME")]
+        run: Option<String>,
+    },
     /// Shows which room of each crate uses which, and fails where an arrow points upward (crates/xtask/layers.toml).
     Layers,
     /// Seeds faults in a copy of the source, one at a time, and shows which tests notice; fails when one is not
@@ -149,6 +158,8 @@ fn main() -> anyhow::Result<()> {
             anyhow::ensure!(worse == 0, "{worse} pictures have become worse");
             return Ok(());
         }
+        Command::Instructions { run: Some(name), .. } => return xtask::instructions::run_one(&name),
+        Command::Instructions { name, run: None } => return xtask::instructions::run(&name),
         Command::Layers => {
             let findings = xtask::layers::examine(&root, &xtask::layers::Rules::read(&root)?)?;
             print!("{}", xtask::layers::table(&findings));

@@ -14,13 +14,6 @@ const fn proof(
     Proof { name, when, what, needs, commands }
 }
 
-/// What the instructions are counted with.
-const GUNGRAUN: &[Need] = &[
-    Program("valgrind", "valgrind"),
-    Cargo("gungraun-runner", "gungraun-runner", "0.20.0"),
-    Program("cc", "gcc libc6-dev"),
-];
-
 /// The version of mdBook.
 pub const MDBOOK: &str = "0.5.4";
 
@@ -44,8 +37,8 @@ pub const PROOFS: &[Proof] = &[
         "instructions",
         Always,
         "the instructions of the hot paths stay below their limits; four minutes",
-        GUNGRAUN,
-        &["cd bench && cargo bench --locked --bench instructions"],
+        &[Program("valgrind", "valgrind")],
+        &["cargo build --release --locked --workspace", "target/release/xtask instructions"],
     ),
     proof(
         "proofs",

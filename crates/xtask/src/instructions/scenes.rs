@@ -1,4 +1,5 @@
-//! Scenes to measure, made by the program: sizes are its arguments, and nothing is read from elsewhere.
+//! Scenes to measure, made by the program: sizes are its arguments, and nothing is read from elsewhere. `bench/`
+//! measures curves over them.
 
 use scene_format::{Syntax, load_str};
 use std::fmt::Write as _;
