@@ -4,7 +4,7 @@
 use crate::codes;
 use crate::desc::Scene;
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::form::{BLANK_LINE, Entry, Form};
+use crate::form::{BLANK_LINE, Entry, Form, OWN_LINES};
 use crate::load::{LoadError, load_str};
 use crate::print;
 use crate::read::{PICK, REPEAT, is_expression, pick_body, repeat_body};
@@ -30,8 +30,9 @@ pub fn comments(text: &str, syntax: Syntax) -> usize {
     parse(text, syntax, &mut Sink::default()).comments.len()
 }
 
-/// Writes a scene as everybody's looks: what fits on a line of 100 characters on one line, else one entry a line, with
-/// the person's comments, order and empty lines (one of several). What it gives it leaves as it is. Lines end as most
+/// Writes a scene as everybody's looks: what fits on a line of 100 characters on one line, else one entry a line, as in
+/// RON what stood so already, its first entry not behind the bracket; with the person's comments, order and empty lines
+/// (one of several). What it gives it leaves as it is. Lines end as most
 /// of them did, and a byte order mark stays. `name` is shown in diagnostics.
 ///
 /// # Errors
@@ -216,7 +217,19 @@ impl Converter<'_, '_> {
                 entries.push(Entry { before: comments, ..Entry::new("", Form::Absent) });
             }
         }
+        if let Some(first) = entries.first_mut().filter(|_| self.keeps_lines(item)) {
+            first.before.insert(0, OWN_LINES.to_owned());
+        }
         entries
+    }
+
+    /// Whether somebody has given the entries of an item lines of their own, the first of them not behind the bracket.
+    fn keeps_lines(&self, item: Item<'_, '_>) -> bool {
+        let first = item.fields().next().map(|(key, _)| key.span()).or_else(|| Some(item.children().next()?.span()));
+        let before = first.and_then(|span| self.text().get(..span.start as usize)).unwrap_or("");
+        self.blanks.is_some()
+            && (self.from, self.to) == (Syntax::Ron, Syntax::Ron)
+            && before.trim_end_matches([' ', '\t', '\r']).ends_with('\n')
     }
 
     fn form(&mut self, item: Item<'_, '_>, kind: Type) -> Form {

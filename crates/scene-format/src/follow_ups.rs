@@ -14,6 +14,8 @@ use std::ops::Range;
 const MANY: usize = 300;
 /// Bytes that are read again at most, all trials together: a fiftieth of a second.
 const BUDGET: usize = 1 << 20;
+/// An item that is repeated or included takes as long as so many bytes.
+const BYTES_OF_AN_ITEM: usize = 100;
 /// To tell of so many faults takes as long as to read the text of them: names are compared with all that is known, and
 /// with each other.
 const FAULTS_OF_A_READING: usize = 32;
@@ -23,8 +25,13 @@ const LONG: usize = 1 << 16;
 const LINES: usize = 4;
 const LINE_BYTES: usize = 400;
 
-/// Leaves out what follows from other faults. `read` gives the errors of another text.
-pub(crate) fn leave_out(text: &str, diagnostics: &mut Vec<Diagnostic>, read: impl Fn(&str) -> Vec<Diagnostic>) {
+/// Whether a text that makes so many items may be read again.
+pub(crate) fn is_cheap(repeated: u64) -> bool {
+    repeated < (BUDGET / BYTES_OF_AN_ITEM) as u64
+}
+
+/// Leaves out what follows from other faults. `read` gives the errors of another text, and how many items it makes.
+pub(crate) fn leave_out(text: &str, diagnostics: &mut Vec<Diagnostic>, read: impl Fn(&str) -> (Vec<Diagnostic>, u64)) {
     leave_out_conflicts(diagnostics);
     let errors: Vec<Diagnostic> =
         diagnostics.iter().filter(|fault| fault.severity == Severity::Error).cloned().collect();
@@ -46,10 +53,10 @@ pub(crate) fn leave_out(text: &str, diagnostics: &mut Vec<Diagnostic>, read: imp
     // One edit for all that is left.
     let left = follows.iter().filter(|follows| !**follows).count();
     if left > 1
-        && let Some(repair) = repairs(text, &errors).into_iter().find(|repair| trials.heals(&repair.edit))
+        && let Some((repair, gone)) = trials.best(repairs(text, &errors))
     {
         root = Some(repair.fault());
-        follows.fill(true);
+        gone.iter().zip(&mut follows).for_each(|(gone, follows)| *follows |= gone);
     }
     let mut index = 0;
     diagnostics.retain(|fault| {
@@ -80,17 +87,43 @@ struct Trials<'t, R> {
     budget: usize,
 }
 
-impl<R: Fn(&str) -> Vec<Diagnostic>> Trials<'_, R> {
-    /// The errors after an edit of the scene file, as long as there is time.
-    fn after(&mut self, edit: &Edit) -> Option<Vec<Diagnostic>> {
-        let cost = self.text.len() * (1 + self.errors.len() / FAULTS_OF_A_READING);
-        self.budget = self.budget.checked_sub(cost).filter(|_| edit.span.source == 0)?;
-        Some((self.read)(&apply_edits(self.text, std::slice::from_ref(edit))))
+impl<R: Fn(&str) -> (Vec<Diagnostic>, u64)> Trials<'_, R> {
+    /// The bytes that one trial counts as.
+    fn cost(&self) -> usize {
+        self.text.len() * (1 + self.errors.len() / FAULTS_OF_A_READING)
     }
 
-    /// Whether nothing is wrong any more.
-    fn heals(&mut self, edit: &Edit) -> bool {
-        self.after(edit).is_some_and(|errors| errors.is_empty())
+    /// The errors after an edit of the scene file, as long as there is time.
+    fn after(&mut self, edit: &Edit) -> Option<Vec<Diagnostic>> {
+        self.budget = self.budget.checked_sub(self.cost()).filter(|_| edit.span.source == 0)?;
+        let (errors, items) = (self.read)(&apply_edits(self.text, std::slice::from_ref(edit)));
+        let items = usize::try_from(items).unwrap_or(usize::MAX);
+        self.budget = self.budget.saturating_sub(items.saturating_mul(BYTES_OF_AN_ITEM));
+        Some(errors)
+    }
+
+    /// The first repair after which nothing is wrong any more; else the one after which least is, nothing of the
+    /// syntax and nothing that was not wrong before: the rest are mistakes of their own. With what vanishes by it.
+    fn best(&mut self, mut repairs: Vec<Repair>) -> Option<(Repair, Vec<bool>)> {
+        if repairs.len() > self.budget / self.cost().max(1) {
+            // Where not all can be tried, those beside what is wrong.
+            let places: Vec<u32> = self.errors.iter().map(|fault| fault.span.start).collect();
+            let away = |repair: &Repair| places.iter().map(|place| place.abs_diff(repair.edit.span.start)).min();
+            repairs.sort_by_cached_key(away);
+        }
+        let mut best: Option<(Repair, Vec<bool>)> = None;
+        let left = |gone: &[bool]| gone.iter().filter(|gone| !**gone).count();
+        for repair in repairs {
+            let Some(gone) = self.gone(&repair.edit) else { continue };
+            if left(&gone) == 0 {
+                return Some((repair, gone));
+            }
+            let mended = self.errors.iter().zip(&gone).all(|(fault, &gone)| gone || !fault.code.is_syntax());
+            if mended && best.as_ref().is_none_or(|(_, other)| left(&gone) < left(other)) {
+                best = Some((repair, gone));
+            }
+        }
+        best
     }
 
     /// Which errors an edit makes vanish; `None` when it brings others.
@@ -131,6 +164,7 @@ impl Repair {
             ("", "\"") => Diagnostic::error(codes::UNCLOSED_TEXT, span, "a quote is missing here")
                 .expected("a text between two quotes"),
             ("", _) => Diagnostic::error(codes::UNCLOSED_BRACKET, span, format!("a `{right}` is missing here")),
+            ("(" | "[" | "{", "") => Diagnostic::error(codes::UNCLOSED_BRACKET, span, "this bracket is one too many"),
             (_, "") => Diagnostic::error(codes::STRAY_BRACKET, span, "this bracket closes nothing"),
             (was, _) => Diagnostic::error(codes::STRAY_BRACKET, span, format!("`{was}` does not match"))
                 .expected(format!("`{right}`")),
@@ -143,9 +177,10 @@ impl Repair {
 /// Changes that may mend brackets and quotes on the lines of faults: what is too much is taken away, what is of the
 /// wrong kind replaced, what is missing added.
 fn repairs(text: &str, errors: &[Diagnostic]) -> Vec<Repair> {
-    const CLOSERS: [&str; 3] = [")", "]", "}"];
-    const OPENERS: [&str; 3] = ["(", "[", "{"];
     let syntax = |fault: &&Diagnostic| fault.code.is_syntax() && fault.span.source == 0;
+    if !errors.iter().any(|fault| syntax(&fault)) {
+        return Vec::new();
+    }
     let mut lines: Vec<Range<usize>> = Vec::new();
     let mut places: Vec<Span> = errors
         .iter()
@@ -173,56 +208,22 @@ fn repairs(text: &str, errors: &[Diagnostic]) -> Vec<Repair> {
             }
         }
     }
+    // Nor need the syntax be wrong where a bracket too many ends something, or anything on the line where a list ought
+    // to begin.
+    let first = errors.iter().filter(|fault| fault.span.source == 0).map(|fault| fault.span.start).min();
+    let first = first.map(|at| line_around(text, at as usize));
+    let before = first.clone().and_then(|line| line.start.checked_sub(1)).map(|at| line_around(text, at));
+    for line in [first, before].into_iter().flatten().filter(|line| line.len() <= LINE_BYTES) {
+        lines.retain(|other| *other != line);
+        lines.insert(0, line);
+    }
     let excess = excess(text);
     if excess != [0; 3] {
         lines.extend(uneven_lines(text, excess, &lines));
     }
-    let mut found = Vec::new();
-    for line in &lines {
-        let quotes = text[line.clone()].matches('"').count() % 2 == 1;
-        for (at, byte) in text.as_bytes()[line.clone()].iter().enumerate() {
-            let at = line.start + at;
-            let change = |end: usize, was: &'static str, replacement: &str| Repair {
-                edit: Edit { span: place(at, end), replacement: replacement.to_owned() },
-                was,
-            };
-            let sign = std::str::from_utf8(std::slice::from_ref(byte)).unwrap_or("");
-            if let Some(&was) = CLOSERS.iter().find(|closer| **closer == sign) {
-                found.push(change(at + 1, was, ""));
-                found.extend(CLOSERS.iter().filter(|other| **other != was).map(|other| change(at + 1, was, other)));
-            }
-            if let Some(&was) = OPENERS.iter().find(|opener| **opener == sign) {
-                found.extend(OPENERS.iter().filter(|other| **other != was).map(|other| change(at + 1, was, other)));
-            }
-            if matches!(byte, b',' | b')' | b']' | b'}') {
-                found.extend(CLOSERS.iter().map(|closer| change(at, "", closer)));
-            }
-        }
-        let end = line.start + text[line.clone()].trim_end().len();
-        found.extend(
-            CLOSERS.iter().map(|closer| Repair {
-                edit: Edit { span: place(end, end), replacement: (*closer).to_owned() },
-                was: "",
-            }),
-        );
-        let word = |byte: Option<&u8>| {
-            byte.is_some_and(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | b'/' | b'-'))
-        };
-        let bytes = text.as_bytes();
-        let edges = line.clone().filter(|&at| {
-            bytes[at] == b'.'
-                || at > 0 && bytes[at - 1] == b'.'
-                || word(at.checked_sub(1).and_then(|before| bytes.get(before))) != word(bytes.get(at))
-        });
-        let missing: &[&'static str] = if quotes { &["\""] } else { &OPENERS };
-        found.extend(edges.flat_map(|at| {
-            let add = move |sign: &&str| Repair {
-                edit: Edit { span: place(at, at), replacement: (*sign).to_owned() },
-                was: "",
-            };
-            missing.iter().map(add)
-        }));
-    }
+    let mut found: Vec<Repair> = lines.iter().flat_map(|line| repairs_of_line(text, line.clone())).collect();
+    // Forgotten closing brackets are likelier than opening ones that are too many.
+    found.sort_by_key(|repair| OPENERS.contains(&repair.was) && repair.edit.replacement.is_empty());
     if excess != [0; 3] {
         // What does not make the brackets even cannot be it.
         found.retain(|repair| {
@@ -232,6 +233,56 @@ fn repairs(text: &str, errors: &[Diagnostic]) -> Vec<Repair> {
         });
     }
     found
+}
+
+const CLOSERS: [&str; 3] = [")", "]", "}"];
+const OPENERS: [&str; 3] = ["(", "[", "{"];
+
+/// The changes of one line.
+fn repairs_of_line(text: &str, line: Range<usize>) -> Vec<Repair> {
+    let bytes = text.as_bytes();
+    let change = |at: usize, was: &'static str, replacement: &str| Repair {
+        edit: Edit { span: place(at, at + was.len()), replacement: replacement.to_owned() },
+        was,
+    };
+    let mut found = Vec::new();
+    for at in line.clone() {
+        let sign = text.get(at..at + 1).unwrap_or("");
+        for signs in [&CLOSERS, &OPENERS] {
+            if let Some(&was) = signs.iter().find(|bracket| **bracket == sign) {
+                found.push(change(at, was, ""));
+                found.extend(signs.iter().filter(|other| **other != was).map(|other| change(at, was, other)));
+            }
+        }
+        if matches!(bytes[at], b',' | b')' | b']' | b'}') {
+            found.extend(CLOSERS.iter().map(|closer| change(at, "", closer)));
+        }
+    }
+    let end = line.start + text[line.clone()].trim_end().len();
+    found.extend(CLOSERS.iter().map(|closer| change(end, "", closer)));
+    if text[line.clone()].matches('"').count() % 2 == 1 {
+        found.extend(line.clone().filter(|&at| is_edge(bytes, at)).map(|at| change(at, "", "\"")));
+        return found;
+    }
+    // Without its bracket a kind grows together with what follows: `Diffusealbedo: 0.5)`, `Scale1.2)`.
+    let within = line.clone().filter(|&at| {
+        let before = bytes[..at].iter().rev().take_while(|byte| byte.is_ascii_alphanumeric());
+        let grown = at > 0 && bytes[at - 1].is_ascii_alphabetic();
+        let grown = grown && (bytes[at].is_ascii_lowercase() || bytes[at].is_ascii_digit());
+        grown && before.last().is_some_and(u8::is_ascii_uppercase)
+    });
+    found.extend(within.map(|at| change(at, "", "(")));
+    let edges = line.filter(|&at| is_edge(bytes, at) || matches!(bytes[at], b'(' | b'[')).chain([end]);
+    found.extend(edges.flat_map(|at| OPENERS.map(|opener| change(at, "", opener))));
+    found
+}
+
+/// Whether a word begins or ends here.
+fn is_edge(bytes: &[u8], at: usize) -> bool {
+    let word =
+        |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | b'/' | b'-'));
+    let before = at.checked_sub(1).and_then(|before| bytes.get(before));
+    bytes.get(at) == Some(&b'.') || before == Some(&b'.') || word(before) != word(bytes.get(at))
 }
 
 /// One for an opening bracket of a kind, minus one for a closing one.
@@ -300,18 +351,29 @@ pub(crate) fn withhold(text: &str, faults: &mut [Diagnostic]) {
     };
     let mut lines: Vec<Range<u32>> = Vec::new();
     for fault in faults.iter().filter(unclear) {
-        let line = lines_of(text, fault.span.start, fault.span.end);
         match lines.last_mut() {
-            // Faults are in order of position.
-            Some(last) if line.start < last.end => last.end = last.end.max(line.end),
-            _ => lines.push(line),
+            // Faults are in order of position. What lies on a line that is known needs no look: it may be all of a file.
+            Some(last) if fault.span.end < last.end => {}
+            Some(last) if fault.span.start < last.end => {
+                last.end = lines_of(text, fault.span.start, fault.span.end).end;
+            }
+            _ => lines.push(lines_of(text, fault.span.start, fault.span.end)),
         }
     }
+    if lines.is_empty() {
+        return;
+    }
+    let mut last = 0..0;
     for fault in faults.iter_mut() {
         fault.edit.take_if(|edit| {
-            let edited = lines_of(text, edit.span.start, edit.span.end);
-            let at = lines.partition_point(|line| line.end <= edited.start);
-            edit.span.source == 0 && lines.get(at).is_some_and(|line| line.start < edited.end)
+            if edit.span.source != 0 {
+                return false;
+            }
+            if edit.span.start < last.start || edit.span.end >= last.end {
+                last = lines_of(text, edit.span.start, edit.span.end);
+            }
+            let at = lines.partition_point(|line| line.end <= last.start);
+            lines.get(at).is_some_and(|line| line.start < last.end)
         });
     }
 }

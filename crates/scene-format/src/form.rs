@@ -31,6 +31,9 @@ pub(crate) enum Form {
 /// Among comments: an empty line. No comment has an end of a line in it.
 pub(crate) const BLANK_LINE: &str = "\n";
 
+/// Before the comments of the first entry: it stood on a line of its own, and all of them will.
+pub(crate) const OWN_LINES: &str = "\n\n";
+
 /// A value with its name (in lists: none) and the comments that belong to it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Entry {

@@ -193,12 +193,12 @@ impl Texts {
         let scene = scene.filter(|_| sink.errors == 0);
         let mut diagnostics = sink.diagnostics;
         let broken = files::broken_lines(text, &diagnostics);
-        if sink.errors > 1 {
+        if sink.errors > 1 && follow_ups::is_cheap(sink.repeated) {
             follow_ups::leave_out(text, &mut diagnostics, |text| {
                 let mut sink = Sink::default();
                 analyse(text, *syntax, overrides, library, share, &mut sink);
                 sink.diagnostics.retain(|fault| fault.severity == Severity::Error);
-                sink.diagnostics
+                (sink.diagnostics, sink.repeated)
             });
         }
         diagnostics.sort_by_key(|diagnostic| diagnostic.span);

@@ -13,9 +13,10 @@ pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         return None;
     }
     let plain = fold(word);
+    let sketch = Sketch::new(word);
     let mut best: Option<(Rank, &str)> = None;
     for candidate in candidates {
-        if candidate.len() > word.len() + 4 * MAX_DISTANCE || word.len() > candidate.len() + 4 * MAX_DISTANCE {
+        if sketch.edits_to(Sketch::new(candidate)) > MAX_DISTANCE {
             continue;
         }
         let folded = fold(candidate);
@@ -34,6 +35,33 @@ pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         }
     }
     best.map(|(_, word)| word)
+}
+
+/// What of a word tells cheaply that another one is far: most are.
+#[derive(Clone, Copy)]
+struct Sketch {
+    /// Bytes of the folded word, if all are ASCII.
+    length: Option<usize>,
+    /// Which letters are in it, some of which share a bit.
+    letters: u32,
+}
+
+impl Sketch {
+    fn new(word: &str) -> Sketch {
+        let (mut length, mut letters) = (0, 0);
+        for byte in word.bytes().filter(|byte| !matches!(byte, b'_' | b'-' | b' ')) {
+            // Of letters these five bits are the same in both cases.
+            letters |= 1u32 << (byte & 31);
+            length += 1;
+        }
+        Sketch { length: word.is_ascii().then_some(length), letters }
+    }
+
+    /// No more edits than between the words: each changes the length by one at most, and which letters there are by two.
+    fn edits_to(self, other: Sketch) -> usize {
+        let (Some(a), Some(b)) = (self.length, other.length) else { return 0 };
+        a.abs_diff(b).max((self.letters ^ other.letters).count_ones().div_ceil(2) as usize)
+    }
 }
 
 /// Smaller is nearer.
@@ -84,6 +112,19 @@ mod tests {
         assert_eq!(nearest("posiion", words), Some("position"));
         assert_eq!(nearest("psition_", words), Some("position"));
         assert_eq!(nearest("colour", words), None);
+    }
+
+    #[test]
+    fn a_sketch_never_rules_out_what_is_near() {
+        let words =
+            ["position", "look_at", "lookAt", "up", "fov", "Albedo", "radiance", "radius", "räder", "a-b c", ""];
+        for a in words {
+            for b in words {
+                let edits = strsim::osa_distance(&fold(a), &fold(b));
+                assert!(Sketch::new(a).edits_to(Sketch::new(b)) <= edits, "{a} {b}");
+            }
+        }
+        assert_eq!(Sketch::new("radiance").edits_to(Sketch::new("position")), 5);
     }
 
     #[test]

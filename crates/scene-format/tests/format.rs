@@ -155,6 +155,36 @@ fn a_tidy_scene_says_the_same_and_stays_as_it_is() {
     }
 }
 
+/// What somebody has given a line for each entry stays so, for the next one to be added; what `tracer new` makes is laid
+/// out as everybody's.
+#[test]
+fn entries_on_lines_of_their_own_keep_them() {
+    let head = "Scene(\n    version: 1,\n    background: 1,\n";
+    for (written, laid_out) in [
+        (
+            "    objects: [\n  Sphere(center: (0, 0, 0),\n radius: 1) ],\n)\n",
+            "    objects: [\n        Sphere(center: (0, 0, 0), radius: 1),\n    ],\n)\n",
+        ),
+        (
+            "    objects: [Sphere(\n center: (0, 0, 0), radius: 1)])",
+            "    objects: [\n        Sphere(\n            center: (0, 0, 0),\n            radius: 1,\n        ),\n    ],\n)\n",
+        ),
+        (
+            "    objects: [Sphere(center: (0, 0, 0),\n radius: 1)])",
+            "    objects: [Sphere(center: (0, 0, 0), radius: 1)],\n)\n",
+        ),
+    ] {
+        let tidy = format("scene", &format!("{head}{written}"), Syntax::Ron).expect("right");
+        assert_eq!(tidy, format!("{head}{laid_out}"));
+        assert_eq!(format("scene", &tidy, Syntax::Ron).expect("right"), tidy);
+    }
+    let templates = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../tracer/templates"));
+    for entry in std::fs::read_dir(templates).expect("templates") {
+        let text = std::fs::read_to_string(entry.expect("a file").path()).expect("text");
+        assert_eq!(format("scene", &text, Syntax::Ron).expect("right"), text);
+    }
+}
+
 /// Lists of vars stay lists, whatever is in them, and comments in them stay where they are; from syntax to syntax, too.
 #[test]
 fn lists_of_vars_stay_lists() {

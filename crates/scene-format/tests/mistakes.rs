@@ -8,6 +8,7 @@ use scene_format::{Diagnostic, Syntax, convert};
 use std::fmt::Write;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A word, number, text or sign of a scene file.
 #[derive(Clone, Debug)]
@@ -202,6 +203,8 @@ const MISTAKES: &[Mistake] = mistakes![
         s.becomes(if s.here() == "(" { "[" } else { "{" })
     };
     ALL "one closing bracket too many" |s| { when(s.sign(0, &[")", "]", "}"]))?; s.becomes(s.here().repeat(2)) };
+    RON "no opening bracket" |s| { when(s.sign(0, &["(", "["]))?; s.becomes("") };
+    RON "one opening bracket too many" |s| { when(s.sign(0, &["(", "["]))?; s.becomes(s.here().repeat(2)) };
     RON "braces of Rust" |s| {
         when(s.is_kind())?;
         let open = Site { index: s.index + 1, ..*s };
@@ -536,64 +539,91 @@ fn scenes() -> Vec<(String, String)> {
     found
 }
 
+/// How often a mistake was made, how often it was not one error at its place, and examples of that.
+type Count = (usize, usize, String);
+
+/// Makes each mistake at some places of a scene, in all syntaxes.
+fn make_mistakes(name: &str, ron: &str, tries: usize, random: &mut Random) -> Vec<Count> {
+    let mut counts = vec![Count::default(); MISTAKES.len()];
+    let toml = convert(name, ron, Syntax::Ron, Syntax::Toml).expect("the scene is right");
+    let json = convert(name, ron, Syntax::Ron, Syntax::Json).expect("the scene is right");
+    for (text, syntax) in [(ron, Syntax::Ron), (&toml, Syntax::Toml), (&json, Syntax::Json)] {
+        // Without a quote TOML's own `=` and `,` are told from those of an expression by nobody.
+        if syntax == Syntax::Toml && text.contains("\"=") {
+            continue;
+        }
+        assert!(errors(text, syntax).is_empty(), "{name} in {} is right", syntax.name());
+        let tokens = tokens(text, syntax);
+        for (mistake, count) in MISTAKES.iter().zip(&mut counts) {
+            if mistake.syntax.is_some_and(|only| only != syntax) {
+                continue;
+            }
+            let mut sites: Vec<(Range<usize>, String)> =
+                (0..tokens.len()).filter_map(|index| (mistake.make)(&Site { text, tokens: &tokens, index })).collect();
+            for _ in 0..tries.min(sites.len()) {
+                let (at, replacement) = sites.swap_remove(random.below(sites.len()));
+                let broken = format!("{}{replacement}{}", &text[..at.start], &text[at.end..]);
+                let found = errors(&broken, syntax);
+                // A mistake may mean something: a plural that is a name, too.
+                count.0 += 1;
+                let is_right = |fault| points_at(fault, &broken, at.start) || may_go(fault, &broken, syntax);
+                let right = matches!(found.as_slice(), [fault] if is_right(fault));
+                if right {
+                    continue;
+                }
+                count.1 += 1;
+                let start = broken[..at.start].rfind('\n').map_or(0, |newline| newline + 1);
+                let shown = broken[start..].lines().next().unwrap_or("");
+                let _ = writeln!(count.2, "    {name} {}:{}: {shown}", syntax.name(), line(&broken, at.start) + 1);
+                for fault in found.iter().take(4) {
+                    let at = line(&broken, fault.span.start as usize) + 1;
+                    let _ = writeln!(count.2, "        {at}: {} {}", fault.code, fault.message);
+                }
+            }
+        }
+    }
+    counts
+}
+
 #[test]
 fn one_mistake_is_one_error_at_its_line() {
     /// Sites that are tried of each mistake in each scene.
     const TRIES: usize = 3;
     let tries = std::env::var("SCENE_MISTAKES").map_or(TRIES, |tries| tries.parse().expect("a number of sites"));
-    let mut random = Random(17);
     let scenes = scenes();
     assert!(scenes.len() > 100, "only {} scenes", scenes.len());
-    let mut counts = vec![(0usize, 0usize, String::new()); MISTAKES.len()];
-    for (name, ron) in &scenes {
-        let toml = convert(name, ron, Syntax::Ron, Syntax::Toml).expect("the scene is right");
-        let json = convert(name, ron, Syntax::Ron, Syntax::Json).expect("the scene is right");
-        for (text, syntax) in [(ron, Syntax::Ron), (&toml, Syntax::Toml), (&json, Syntax::Json)] {
-            // Without a quote TOML's own `=` and `,` are told from those of an expression by nobody.
-            if syntax == Syntax::Toml && text.contains("\"=") {
-                continue;
-            }
-            assert!(errors(text, syntax).is_empty(), "{name} in {} is right", syntax.name());
-            let tokens = tokens(text, syntax);
-            for (mistake, count) in MISTAKES.iter().zip(&mut counts) {
-                if mistake.syntax.is_some_and(|only| only != syntax) {
-                    continue;
-                }
-                let mut sites: Vec<(Range<usize>, String)> = (0..tokens.len())
-                    .filter_map(|index| (mistake.make)(&Site { text, tokens: &tokens, index }))
-                    .collect();
-                for _ in 0..tries.min(sites.len()) {
-                    let (at, replacement) = sites.swap_remove(random.below(sites.len()));
-                    let broken = format!("{}{replacement}{}", &text[..at.start], &text[at.end..]);
-                    let found = errors(&broken, syntax);
-                    // A mistake may mean something: a plural that is a name, too.
-                    count.0 += 1;
-                    let is_right = |fault| points_at(fault, &broken, at.start) || may_go(fault, &broken, syntax);
-                    let right = matches!(found.as_slice(), [fault] if is_right(fault));
-                    if right {
-                        continue;
-                    }
-                    count.1 += 1;
-                    if count.1 <= 3 {
-                        let start = broken[..at.start].rfind('\n').map_or(0, |newline| newline + 1);
-                        let shown = broken[start..].lines().next().unwrap_or("");
-                        let _ =
-                            writeln!(count.2, "    {name} {}:{}: {shown}", syntax.name(), line(&broken, at.start) + 1);
-                        for fault in found.iter().take(4) {
-                            let at = line(&broken, fault.span.start as usize) + 1;
-                            let _ = writeln!(count.2, "        {at}: {} {}", fault.code, fault.message);
-                        }
-                    }
-                }
-            }
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut counts = vec![Count::default(); MISTAKES.len()];
+        while let index = next.fetch_add(1, Ordering::Relaxed)
+            && let Some((name, ron)) = scenes.get(index)
+        {
+            let of_scene = make_mistakes(name, ron, tries, &mut Random(index as u64));
+            add(&mut counts, of_scene);
         }
-    }
+        counts
+    };
+    let mut counts = vec![Count::default(); MISTAKES.len()];
+    std::thread::scope(|scope| {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let running: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        running.into_iter().for_each(|thread| add(&mut counts, thread.join().expect("no panic")));
+    });
     let mut report = String::new();
     for (mistake, (tried, wrong, examples)) in MISTAKES.iter().zip(&counts) {
         assert!(*tried > 0, "nowhere can one make the mistake \"{}\"", mistake.name);
         if *wrong > 0 {
-            let _ = writeln!(report, "{}: {wrong} of {tried}\n{examples}", mistake.name);
+            let shown: Vec<&str> = examples.lines().take(12).collect();
+            let _ = writeln!(report, "{}: {wrong} of {tried}\n{}", mistake.name, shown.join("\n"));
         }
     }
     assert!(report.is_empty(), "not one error at the line of the mistake:\n{report}");
+}
+
+fn add(counts: &mut [Count], more: Vec<Count>) {
+    for (count, (tried, wrong, examples)) in counts.iter_mut().zip(more) {
+        count.0 += tried;
+        count.1 += wrong;
+        count.2 += &examples;
+    }
 }

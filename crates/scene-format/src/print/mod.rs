@@ -8,7 +8,7 @@ pub(crate) use json::{json, json_value};
 pub(crate) use ron::{ron, ron_value};
 pub(crate) use toml::{key as toml_key, text as toml_text, toml, toml_value};
 
-use crate::form::{BLANK_LINE, Entry, Form};
+use crate::form::{BLANK_LINE, Entry, Form, OWN_LINES};
 use crate::syntax::Syntax;
 
 /// Lines are filled up to this many characters.
@@ -60,18 +60,21 @@ fn quoted(text: &str, unicode: impl Fn(char) -> String) -> String {
 /// Comments without an empty line before the first.
 fn after_blank(comments: &[String]) -> &[String] {
     match comments {
+        [first, rest @ ..] if first == OWN_LINES => after_blank(rest),
         [first, rest @ ..] if first == BLANK_LINE => rest,
         _ => comments,
     }
 }
 
-/// Whether comments stand inside a value, or empty lines between its entries.
+/// Whether comments stand inside a value, or empty lines between its entries, or these are to stand on own lines.
 fn has_comments(form: &Form) -> bool {
     let inside = |entries: &[Entry]| {
-        entries.iter().enumerate().any(|(index, entry)| {
-            let before = if index == 0 { after_blank(&entry.before) } else { &entry.before };
-            !before.is_empty() || entry.after.is_some() || has_comments(&entry.value)
-        })
+        let own_lines = entries.first().and_then(|entry| entry.before.first()).is_some_and(|first| first == OWN_LINES);
+        own_lines
+            || entries.iter().enumerate().any(|(index, entry)| {
+                let before = if index == 0 { after_blank(&entry.before) } else { &entry.before };
+                !before.is_empty() || entry.after.is_some() || has_comments(&entry.value)
+            })
     };
     match form {
         Form::List(entries) | Form::Map(entries) | Form::Struct { fields: entries, .. } => inside(entries),

@@ -268,7 +268,9 @@ pub(super) fn field_elsewhere(
             rows_of(value).map(|rows| (None, format!("{}{rows}", name_of("matrix"))))
         }
         "object" | "item" | "body" | "child" if def.name == "Repeat" => {
-            Some((None, format!("{}[{}]", name_of("items"), value.lexeme())))
+            let is_list = value.kind() == Kind::List;
+            let items = if is_list { value.lexeme().to_owned() } else { format!("[{}]", value.lexeme()) };
+            Some((None, format!("{}{items}", name_of("items"))))
         }
         _ if let Some(mended) = of_mesh(name, value, def) => Some((None, mended)),
         "resolution" | "size" | "dimensions" | "res" | "pixels" if def.name == "Image" => {

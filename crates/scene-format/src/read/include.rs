@@ -190,11 +190,11 @@ impl Reader<'_> {
         // An empty file, or one whose faults of syntax have been told.
         let root = name.other(file.root)?;
         // What is included again is read again: that counts as what repetitions make.
-        if self.repeated > MOST_ITEMS {
+        if self.sink.repeated > MOST_ITEMS {
             return None;
         }
-        self.repeated += 10 + u64::from(file.nodes) / 4;
-        if self.repeated > MOST_ITEMS {
+        self.sink.repeated += 10 + u64::from(file.nodes) / 4;
+        if self.sink.repeated > MOST_ITEMS {
             let message = format!("includes and repetitions make more than {MOST_ITEMS} items");
             self.report(fault(message, codes::TOO_MUCH).expected("fewer").hint("copies are cheaper by `placements`"));
             return None;

@@ -88,8 +88,6 @@ pub(crate) struct Reader<'r> {
     renamed: u32,
     /// The item whose kind a field was told to tell.
     typed: u32,
-    /// Items that repetitions have made.
-    repeated: u64,
     /// The indices of the repetitions that are being read, the outermost first.
     indices: Vec<(Arc<str>, u32)>,
     /// Included files that are being read, one within the other.
@@ -175,7 +173,6 @@ impl<'r> Reader<'r> {
             clock: clock::Clock::default(),
             renamed: NOWHERE,
             typed: NOWHERE,
-            repeated: 0,
             indices: Vec::new(),
             open: Vec::new(),
             first_included: u32::MAX,

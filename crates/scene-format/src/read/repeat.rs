@@ -99,7 +99,7 @@ impl Reader<'_> {
         };
         let (Some(count), Some(index), Some(items)) = (count, index, fields.get(3)) else { return None };
         // That it is too much was told.
-        if self.repeated > MOST_ITEMS {
+        if self.sink.repeated > MOST_ITEMS {
             return None;
         }
         if self.vars.depth() >= MOST_NESTED {
@@ -110,7 +110,7 @@ impl Reader<'_> {
         if self.vars.depth() == 0 {
             let each = items.children().map(made).fold(0, u64::saturating_add);
             if each.saturating_mul(u64::from(count)) > MOST_ITEMS {
-                self.repeated = MOST_ITEMS + 1;
+                self.sink.repeated = MOST_ITEMS + 1;
                 self.too_much(body, &format!("repetitions make more than {MOST_ITEMS} items"));
                 return None;
             }
@@ -135,8 +135,8 @@ impl Reader<'_> {
             }
             self.vars.leave();
             self.indices.pop();
-            self.repeated += made.max(1);
-            if self.sink.errors == errors && self.repeated > MOST_ITEMS {
+            self.sink.repeated += made.max(1);
+            if self.sink.errors == errors && self.sink.repeated > MOST_ITEMS {
                 self.too_much(body, &format!("repetitions make more than {MOST_ITEMS} items"));
                 return None;
             }
@@ -174,11 +174,11 @@ impl Reader<'_> {
 
     /// Whether so many copies more, which a pattern makes, are not too many; else it is reported.
     pub(crate) fn takes_copies(&mut self, item: Item<'_, '_>, copies: u64) -> bool {
-        if self.repeated > MOST_ITEMS {
+        if self.sink.repeated > MOST_ITEMS {
             return false;
         }
-        self.repeated += copies;
-        let too_many = self.repeated > MOST_ITEMS;
+        self.sink.repeated += copies;
+        let too_many = self.sink.repeated > MOST_ITEMS;
         if too_many {
             let message = format!("repetitions and patterns make more than {MOST_ITEMS} items");
             self.report(Diagnostic::error(codes::TOO_MUCH, item.head(), message).expected("fewer"));

@@ -155,6 +155,10 @@ pub(crate) fn synonyms(name: &str, def: &'static StructDef) -> Vec<&'static str>
     let torus = def.name == "Torus";
     let of_torus = OF_TORUS.iter().filter(|(_, others)| torus && others.contains(&name));
     let plain = squeezed(name);
+    // `Instances` is our own word in other letters, not one of those that mean `placements`.
+    if let Some(own) = def.fields.iter().find(|field| squeezed(field.name) == plain) {
+        return vec![own.name];
+    }
     let ambiguous = torus && matches!(&*plain, "r" | "outer" | "outerradius" | "inner" | "innerradius");
     let same = |others: &[&str]| others.iter().any(|other| squeezed(other) == plain);
     let all = SYNONYMS.iter().filter(|(field, others)| !ambiguous && def.field(field).is_some() && same(others));

@@ -129,6 +129,8 @@ pub(crate) struct Sink {
     pub errors: usize,
     /// What files the text names.
     pub files: Files,
+    /// Items that repetitions and included files have made.
+    pub repeated: u64,
     full: bool,
 }
 
