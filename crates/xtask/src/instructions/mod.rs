@@ -1,7 +1,7 @@
 //! Instructions that the hot paths take, counted by valgrind: no noise, so a gate. `cargo xtask instructions`; needs
 //! valgrind.
 //!
-//! The program starts itself under callgrind, once for each path, which counts while [`counted`] runs: what is measured
+//! The program starts itself under callgrind, once for each path, which counts while `counted` runs: what is measured
 //! are the libraries as they are built for everybody (`release`), and nothing is compiled for it. Valgrind knows AVX2
 //! but no AVX-512, so the counts are those of the AVX2 kernels. The limits are the counts of the commit that set them
 //! plus three per cent; whoever makes something cheaper lowers its limit, whoever must make it dearer says why beside
