@@ -1515,7 +1515,7 @@ class Group(TypedDict, total=False):
 
     objects: What is in it.
     material: The material of those objects in it that have none of their own.
-    transform: Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without `about` are about the origin. A group has no `DropTo` and no `FitTo`.
+    transform: Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without `about` are about the origin; `DropTo` and `FitTo` go by all that stands in it.
     placements: Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     lights: Lights that move with it. Each copy has one, as bright as it is written.
     camera_visible: Whether the camera sees what is in it. If not, camera rays pass as if nothing were there; it still throws shadows, shines, and is seen in mirrors and through glass.
@@ -1541,7 +1541,7 @@ class Include(_IncludeRequired, total=False):
     file: The scene file, in any syntax. Paths in it start from its own folder.
     vars: Other values for its `vars`.
     materials: Other materials for names of its `materials`: names of this scene, or written here.
-    transform: Transforms of all of it, applied first to last. Turns and scales without `about` are about the origin. It has no `DropTo` and no `FitTo`.
+    transform: Transforms of all of it, applied first to last. Turns and scales without `about` are about the origin; `DropTo` and `FitTo` go by all that stands in it.
     placements: Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees what is in it. If not, camera rays pass as if nothing were there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.

@@ -244,17 +244,16 @@ codes! {
     /// Scene(repeat: 3, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     RESERVED_WORD "E0210" "a word that is kept for later versions";
-    /// `DropTo` or `FitTo` stands in the `transform` or the `placements` of a `Group` or an `Include`. How far these
-    /// reach is known when all meshes in them have been read; drop or fit the objects in it, or move it by `Translate`
-    /// and scale it by `Scale`. A `Plane` has no lowest point and no extent, ever.
+    /// `DropTo` or `FitTo` stands in the `transform` or the `placements` of a `Plane`, or of a `Group` or an `Include` in
+    /// which one stands. It has no lowest point and no extent: move it by `Translate`, or take it out of the group.
     ///
     /// ```ron
     /// Scene(
     ///     background: 1,
-    ///     objects: [Group(objects: [Sphere(center: (0, 0, 0), radius: 1)], transform: [DropTo(y: 0)])],
+    ///     objects: [Group(objects: [Plane(normal: (0, 1, 0))], transform: [DropTo(y: 0)])],
     /// )
     /// ```
-    GROUP_DROP "E0211" "a group or plane that is dropped or fitted";
+    GROUP_DROP "E0211" "a plane that is dropped or fitted";
     /// A field stands beside another one that leaves it nothing to say: a `fov` where a panorama shows all directions.
     ///
     /// ```ron

@@ -29,7 +29,7 @@ scene_struct! {
         /// The material of those objects in it that have none of their own.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without
-        /// `about` are about the origin. A group has no `DropTo` and no `FitTo`.
+        /// `about` are about the origin; `DropTo` and `FitTo` go by all that stands in it.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A
         /// text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a
@@ -164,26 +164,15 @@ pub(crate) fn hide(camera_visible: bool, objects: &mut [Spanned<Object>]) {
     }
 }
 
-/// The diagnostic of a step of a group that needs to know how far the group reaches.
-pub fn group_fault(step: &Spanned<Transform>) -> Diagnostic {
-    let (message, hint) = match step.value {
-        Transform::FitTo { .. } => (
-            "a group has no extent that is known yet",
-            "fit the objects in it, or scale it by Scale(factor: 2, about: (0, 0, 0))",
-        ),
-        _ => (
-            "a group has no lowest point that is known yet",
-            "drop the objects in it, or move it by Translate((0, y, 0))",
-        ),
+/// The diagnostic of a step of a group that needs to know how far it reaches, in which something has no end.
+pub fn endless_group(step: &Spanned<Transform>) -> Diagnostic {
+    let message = match step.value {
+        Transform::FitTo { .. } => "a group with a plane in it has no extent that could be fitted",
+        _ => "a group with a plane in it has no lowest point",
     };
     Diagnostic::error(codes::GROUP_DROP, step.span, message)
         .expected("Translate, Scale, Rotate, Matrix or Align")
-        .hint(hint)
-}
-
-/// The first step that needs to know how far it reaches what it moves.
-fn drops(steps: &[Spanned<Transform>]) -> Option<&Spanned<Transform>> {
-    steps.iter().find(|step| matches!(step.value, Transform::DropTo { .. } | Transform::FitTo { .. }))
+        .hint("take the plane out of the group")
 }
 
 /// Puts objects where a group with this transform and these placements puts them. `false`: it cannot, which is
@@ -194,18 +183,16 @@ pub(crate) fn moved(
     placements: Placements,
     objects: &mut [Spanned<Object>],
 ) -> bool {
-    let drop = drops(&transform).or_else(|| match &placements {
-        Placements::List(list) => list.iter().find_map(drops),
-        _ => None,
-    });
-    if let Some(step) = drop {
-        reader.report(group_fault(step));
-        return false;
-    }
     if transform.is_empty() && placements == Placements::One {
         return true;
     }
     let group = Arc::new(Moved { transform, placements });
+    if let Some(step) = group.asks_for_reach()
+        && objects.iter().any(|object| object.value.is_endless())
+    {
+        reader.report(endless_group(step));
+        return false;
+    }
     // Neighbours that stand in the same inner groups share what is made for them.
     let mut last: Option<Arc<Groups>> = None;
     for object in objects {

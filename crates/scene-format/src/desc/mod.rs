@@ -44,7 +44,7 @@ pub use camera::{Camera, FisheyeMapping, FovAxis, Projection};
 pub use cameras::NamedCamera;
 pub(crate) use cameras::{CameraChoice, Chosen};
 pub use effects::{Effects, PixelFilter, ToneMap};
-pub use group::group_fault;
+pub use group::endless_group;
 pub(crate) use group::{ITEMS, MOST_NESTED, Objects};
 pub(crate) use include::IncludeWords;
 pub(crate) use lens::DepthOfField;

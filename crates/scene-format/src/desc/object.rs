@@ -36,6 +36,11 @@ pub(crate) trait ShapeWords: Told + Faulty {
     fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
         None
     }
+
+    /// Whether it reaches without end.
+    fn is_endless(&self) -> bool {
+        false
+    }
 }
 
 impl<T: ShapeWords> ShapeWords for Box<T> {
@@ -43,6 +48,10 @@ impl<T: ShapeWords> ShapeWords for Box<T> {
 
     fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
         T::named_file(self)
+    }
+
+    fn is_endless(&self) -> bool {
+        T::is_endless(self)
     }
 }
 
@@ -141,6 +150,11 @@ macro_rules! shapes {
             /// What is wrong with its numbers: [`Faulty::faults`].
             pub fn faults(&self, span: Span) -> Vec<Diagnostic> {
                 match self { $( Object::$Kind(shape) => Faulty::faults(shape, span), )+ }
+            }
+
+            /// Whether it reaches without end: a plane does.
+            pub fn is_endless(&self) -> bool {
+                match self { $( Object::$Kind(shape) => ShapeWords::is_endless(shape), )+ }
             }
 
             /// The file that its shape is made of, if it is.

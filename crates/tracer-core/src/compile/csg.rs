@@ -7,9 +7,10 @@ use super::assets::Sources;
 use super::bodies::{Convex, Extent, Side};
 use super::curved::{Written, written};
 use super::materials::MaterialBuilder;
-use super::placing::{Subject, place_all};
+use super::placing::{Given, Subject, check, place, place_all};
+use super::settled::Settled;
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
-use scene_format::desc::{MaterialRef, Object, Placements, solid_cannot_shine};
+use scene_format::desc::{MaterialRef, Object, solid_cannot_shine};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use tracer_kernels::scene::{Frame, NONE, Operand, Shape, Solids, Step};
@@ -46,7 +47,7 @@ struct PartWritten {
 /// A solid of the scene.
 pub struct SolidObject {
     /// Its place among the objects of the scene.
-    number: u32,
+    pub number: u32,
     node: Node,
     operands: Vec<OperandWritten>,
     parts: Vec<PartWritten>,
@@ -60,14 +61,14 @@ type Box3 = [DVec3; 2];
 /// Surfaces of solids that a scene may have, those of copies counted: 2 GB.
 const MOST_ROWS: usize = 1 << 24;
 
-/// Finds materials and places of the solids, in order.
+/// Finds what the solids are made of, and their materials, in order.
 pub fn load(
     desc: &SceneDesc,
     sources: &Sources<'_>,
     builder: &mut MaterialBuilder,
     diagnostics: &mut Diagnostics,
 ) -> Vec<SolidObject> {
-    let (mut all, mut rows) = (Vec::new(), 0usize);
+    let mut all = Vec::new();
     for (number, object) in (0..).zip(&desc.objects) {
         if object.value.operands().is_none() {
             continue;
@@ -79,29 +80,48 @@ pub fn load(
             builder.resolve(object.value.material(), number, diagnostics);
             diagnostics.extend(faults);
             // A placements file is read even when something else is wrong: all faults in one run.
-            place_all((desc, sources), transform, placements, &Subject::unknown(noun), diagnostics);
+            let given = Given { desc, sources, settled: &Settled::default() };
+            place_all(given, transform, placements, &Subject::unknown(noun), diagnostics);
             continue;
         }
-        let mut reader = Nodes { desc, sources, builder: &mut *builder, diagnostics: &mut *diagnostics };
+        let mut reader = Nodes { builder: &mut *builder, diagnostics: &mut *diagnostics };
         let mut operands = Vec::new();
         let node = reader.node(object, &format!("objects[{number}]"), None, &mut operands);
-        let reach = |map: &DAffine3, axis: usize| bounds(&node, &operands, map).map(|corner| corner[axis]);
-        let subject = Subject { noun, local: DAffine3::IDENTITY, middle: None, reach: Some(&reach) };
-        let maps = place_all((desc, sources), transform, placements, &subject, diagnostics);
-        super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
         let parts = parts(&operands);
-        rows += maps.len().saturating_mul(parts.len());
-        if rows > MOST_ROWS {
-            let message = format!("the surfaces of all copies of solids are more than {MOST_ROWS}");
-            diagnostics.push(Diagnostic::error(codes::TOO_MUCH, object.span, message).expected("fewer copies"));
-            break;
-        }
-        all.push(SolidObject { number, node, operands, parts, maps });
+        all.push(SolidObject { number, node, operands, parts, maps: Vec::new() });
     }
     all
 }
 
-fn noun(object: &Object) -> &'static str {
+/// Finds where the solids are.
+pub fn place_copies(given: Given<'_>, solids: &mut Vec<SolidObject>, diagnostics: &mut Diagnostics) {
+    let mut rows = 0usize;
+    for index in 0..solids.len() {
+        let object = &given.desc.objects[solids[index].number as usize];
+        let (transform, placements) = (object.value.transform(), object.value.placements());
+        let place = |subject: &Subject<'_>| place_all(given, transform, placements, subject, diagnostics);
+        let maps = solids[index].with_subject(noun(&object.value), place);
+        check(&maps, transform.first().map_or(object.span, |t| t.span), noun(&object.value), diagnostics);
+        rows += maps.len().saturating_mul(solids[index].parts.len());
+        if rows > MOST_ROWS {
+            let message = format!("the surfaces of all copies of solids are more than {MOST_ROWS}");
+            diagnostics.push(Diagnostic::error(codes::TOO_MUCH, object.span, message).expected("fewer copies"));
+            return solids.truncate(index);
+        }
+        solids[index].maps = maps;
+    }
+}
+
+impl SolidObject {
+    /// What steps ask of it.
+    pub fn with_subject<T>(&self, noun: &str, then: impl FnOnce(&Subject<'_>) -> T) -> T {
+        let reach = |map: &DAffine3, axis: usize| bounds(&self.node, &self.operands, map).map(|corner| corner[axis]);
+        then(&Subject { noun, local: DAffine3::IDENTITY, middle: None, reach: &reach })
+    }
+}
+
+/// What a solid is called.
+pub fn noun(object: &Object) -> &'static str {
     match object {
         Object::Union(_) => "union",
         Object::Intersection(_) => "intersection",
@@ -126,14 +146,12 @@ fn shining(object: &Spanned<Object>, material: &MaterialRef) -> Diagnostic {
 }
 
 /// What reads the parts of a solid.
-struct Nodes<'a, 'k, 'm> {
-    desc: &'a SceneDesc,
-    sources: &'a Sources<'k>,
+struct Nodes<'a, 'm> {
     builder: &'a mut MaterialBuilder<'m>,
     diagnostics: &'a mut Diagnostics,
 }
 
-impl Nodes<'_, '_, '_> {
+impl Nodes<'_, '_> {
     /// What an object is made of. `path`: where it stands; `inherited`: the material of what has none of its own. Its
     /// own transforms are applied to its operands where it is part of another.
     fn node(
@@ -194,12 +212,11 @@ impl Nodes<'_, '_, '_> {
         middle: DVec3,
         reach: super::placing::Reach<'_>,
     ) -> DAffine3 {
-        let subject = Subject { noun, local: DAffine3::IDENTITY, middle: Some(middle), reach: Some(reach) };
+        let subject = Subject { noun, local: DAffine3::IDENTITY, middle: Some(middle), reach };
         let transform = object.value.transform();
-        let maps = place_all((self.desc, self.sources), transform, &Placements::One, &subject, self.diagnostics);
-        let whole: Vec<DAffine3> = maps.iter().map(|map| *map * local).collect();
-        super::placing::check(&whole, transform.first().map_or(object.span, |t| t.span), noun, self.diagnostics);
-        maps.first().copied().unwrap_or(DAffine3::IDENTITY)
+        let map = place(transform, &subject, self.diagnostics);
+        check(&[map * local], transform.first().map_or(object.span, |t| t.span), noun, self.diagnostics);
+        map
     }
 }
 

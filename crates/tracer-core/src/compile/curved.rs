@@ -3,7 +3,8 @@
 
 use super::assets::Sources;
 use super::materials::MaterialBuilder;
-use super::placing::{Subject, place_all, sides};
+use super::placing::{Given, Subject, check, place_all, sides};
+use super::settled::Settled;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
 use scene_format::desc::{
@@ -22,6 +23,15 @@ pub(super) struct Written {
     /// From object space to where it is before its transforms.
     pub(super) local: DAffine3,
     pub(super) noun: &'static str,
+}
+
+impl Written {
+    /// What steps ask of it.
+    pub fn with_subject<T>(&self, then: impl FnOnce(&Subject<'_>) -> T) -> T {
+        let Written { unit, local, noun } = self;
+        let reach = |map: &DAffine3, axis: usize| unit.bounds(&(*map * *local)).map(|corner| corner[axis]);
+        then(&Subject { noun, local: *local, middle: Some(local.translation), reach: &reach })
+    }
 }
 
 /// The shape of an object with curved sides.
@@ -117,7 +127,7 @@ pub struct Curved {
     pub emissive: Option<Arc<Emissive>>,
 }
 
-/// Finds materials and places of the objects with curved sides, in order.
+/// Finds the objects with curved sides, and their materials, in order.
 pub fn load(
     desc: &SceneDesc,
     sources: &Sources<'_>,
@@ -134,13 +144,10 @@ pub fn load(
         if !faults.is_empty() {
             diagnostics.extend(faults);
             // A placements file is read even when something else is wrong: all faults in one run.
-            place_all((desc, sources), transform, placements, &Subject::unknown(noun), diagnostics);
+            let given = Given { desc, sources, settled: &Settled::default() };
+            place_all(given, transform, placements, &Subject::unknown(noun), diagnostics);
             continue;
         }
-        let reach = |map: &DAffine3, axis: usize| unit.bounds(&(*map * local)).map(|corner| corner[axis]);
-        let subject = Subject { noun, local, middle: Some(local.translation), reach: Some(&reach) };
-        let maps = place_all((desc, sources), transform, placements, &subject, diagnostics);
-        super::placing::check(&maps, transform.first().map_or(object.span, |t| t.span), noun, diagnostics);
         let plain = transform.is_empty() && matches!(placements, scene_format::desc::Placements::One);
         if emissive.is_some() && unit.is_endless() {
             let span = match object.value.material() {
@@ -152,9 +159,20 @@ pub fn load(
             emissive = None;
         }
         let local = (!plain).then(|| Box::new(local));
-        all.push(Curved { number, unit, maps, local, material, emissive });
+        all.push(Curved { number, unit, maps: Vec::new(), local, material, emissive });
     }
     all
+}
+
+/// Finds where they are.
+pub fn place(given: Given<'_>, all: &mut [Curved], diagnostics: &mut Diagnostics) {
+    for curved in all {
+        let object = &given.desc.objects[curved.number as usize];
+        let Some(written) = written(&object.value) else { continue };
+        let (transform, placements) = (object.value.transform(), object.value.placements());
+        curved.maps = written.with_subject(|subject| place_all(given, transform, placements, subject, diagnostics));
+        check(&curved.maps, transform.first().map_or(object.span, |t| t.span), written.noun, diagnostics);
+    }
 }
 
 /// The unit normal of a plane, and its point that is nearest to one.

@@ -1,7 +1,7 @@
 //! Rectangles and boxes that nobody sees, since others lie in the same planes: of surfaces in one plane one is seen
 //! wherever both are ([`tracer_kernels::bvh`]).
 
-use super::meshes::Placed;
+use super::placed::Placed;
 use super::polygonal::{Geometry, UnitShape, polygonal};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::desc::{Material, MaterialRef};

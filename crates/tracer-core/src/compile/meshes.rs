@@ -9,7 +9,7 @@ use super::assets::Sources;
 use super::kept::build_tree;
 pub use super::loading::{Loaded, load};
 use super::materials::MaterialBuilder;
-use super::placing::{Subject, check, place_all};
+use super::placed::Placed;
 use super::polygonal::{Geometry, Polygonal, polygonal};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -92,86 +92,6 @@ impl Assigned {
     fn own_radiance(&self, object: usize, file: usize) -> impl Iterator<Item = [f64; 3]> {
         let own = if self.of_object[object] == NONE { &self.shining[file][..] } else { &[] };
         own.iter().flatten().copied()
-    }
-}
-
-/// Where the objects of triangles are.
-pub struct Placed {
-    /// Per object: from the frame of its triangles to the world, one per copy.
-    maps: Vec<Vec<DAffine3>>,
-    /// Per object: the corners of its box in the frame of its triangles.
-    boxes: Vec<[DVec3; 2]>,
-}
-
-/// Evaluates transforms and placements.
-pub fn place(desc: &SceneDesc, sources: &Sources<'_>, loaded: &Loaded, diagnostics: &mut Diagnostics) -> Placed {
-    let mut placed = Placed { maps: Vec::new(), boxes: Vec::new() };
-    for (object, file) in polygonal(desc).zip(&loaded.file_of_object) {
-        let Some(data) = file.map(|f| &loaded.files[f]) else {
-            // A placements file is read even when the mesh is missing: all faults in one run.
-            let unknown = Subject::unknown(object.noun);
-            place_all((desc, sources), object.transform, object.placements, &unknown, diagnostics);
-            placed.maps.push(Vec::new());
-            placed.boxes.push([DVec3::ZERO; 2]);
-            continue;
-        };
-        let reach = |map: &DAffine3, axis: usize| {
-            let map = *map * object.local;
-            let row = map.matrix3.row(axis);
-            let along = data.positions.par_iter().map(|p| row.dot(DVec3::from(*p)) + map.translation[axis]);
-            let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
-            along.map(|x| [x, x]).reduce(|| [f64::INFINITY, f64::NEG_INFINITY], both)
-        };
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for p in data.positions.iter().map(|p| DVec3::from(*p)) {
-            (low, high) = (low.min(p), high.max(p));
-        }
-        let middle = match object.geometry {
-            Geometry::Made(shape) => shape.middle().map_or(0.5 * (low + high), DVec3::from),
-            Geometry::Heights(field) => DVec3::from(field.center.value),
-            _ => object.local.transform_point3(DVec3::from(data.barycentre())),
-        };
-        let subject = Subject { noun: object.noun, local: object.local, middle: Some(middle), reach: Some(&reach) };
-        let maps = place_all((desc, sources), object.transform, object.placements, &subject, diagnostics);
-        let at = object.transform.first().map_or(object.span, |t| t.span);
-        check(&maps, at, object.noun, diagnostics);
-        placed.maps.push(maps);
-        placed.boxes.push([low, high]);
-    }
-    placed
-}
-
-impl Placed {
-    /// Where the copies of an object of triangles are.
-    pub fn maps_of(&self, object: usize) -> &[DAffine3] {
-        self.maps.get(object).map_or(&[], Vec::as_slice)
-    }
-
-    /// The corners of its box, in the frame of its triangles.
-    pub fn box_of(&self, object: usize) -> [DVec3; 2] {
-        self.boxes.get(object).copied().unwrap_or_default()
-    }
-
-    /// A point of the box of each copy, the nearest to `look_at`; of many copies every so many, 1024 at most per
-    /// object.
-    pub fn marks(&self, look_at: DVec3) -> impl Iterator<Item = DVec3> {
-        (0..self.maps.len()).flat_map(move |object| self.marks_of(object, look_at))
-    }
-
-    /// Those of one object.
-    pub fn marks_of(&self, object: usize, look_at: DVec3) -> impl Iterator<Item = DVec3> {
-        let all = self.maps.get(object).zip(self.boxes.get(object));
-        all.into_iter().flat_map(move |(maps, corners)| {
-            maps.iter().step_by(maps.len().div_ceil(1024).max(1)).map(move |map| {
-                let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-                for k in 0..8usize {
-                    let pick = |axis: usize| corners[k >> axis & 1][axis];
-                    let p = map.transform_point3(DVec3::new(pick(0), pick(1), pick(2)));
-                    (low, high) = (low.min(p), high.max(p));
-                }
-                look_at.clamp(low, high)
-            })
-        })
     }
 }
 

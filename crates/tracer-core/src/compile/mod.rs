@@ -24,10 +24,12 @@ mod nearby;
 mod other_scale;
 mod out_of_view;
 mod patterns;
+mod placed;
 mod placing;
 mod polygonal;
 mod programs;
 mod radiances;
+mod settled;
 mod shut_in;
 mod stored;
 mod textures;
@@ -47,6 +49,7 @@ use glam::{DAffine3, DVec3};
 pub use kept::Kept;
 pub use light_groups::{most_light_groups, shining_objects};
 use materials::{Finished, MaterialBuilder};
+use placing::Given;
 use scene_format::codes;
 use scene_format::desc::{Acceleration, Caustics, Integrator, Reuse};
 use scene_format::diagnostic::{Source, Span, keep_first, say_where_included};
@@ -156,7 +159,7 @@ struct Gathered<'d> {
     mattes: Mattes,
     finished: Finished,
     background: environment::Loaded<'d>,
-    placed: meshes::Placed,
+    placed: placed::Placed,
     /// Warnings.
     diagnostics: Diagnostics,
 }
@@ -167,14 +170,19 @@ fn gather<'d>(desc: &'d SceneDesc, sources: &Sources<'_>) -> Result<Gathered<'d>
     let loaded = meshes::load(desc, sources, &mut diagnostics);
     vertex_colors::check(desc, &loaded, &mut diagnostics);
     let assigned = meshes::assign_materials(desc, &loaded, &mut builder, &mut diagnostics);
-    let curved = curved::load(desc, sources, &mut builder, &mut diagnostics);
-    let solid_objects = csg::load(desc, sources, &mut builder, &mut diagnostics);
+    let mut curved = curved::load(desc, sources, &mut builder, &mut diagnostics);
+    let mut solid_objects = csg::load(desc, sources, &mut builder, &mut diagnostics);
+    let settled =
+        settled::settle(desc, sources, &settled::Things { loaded: &loaded, solids: &solid_objects }, &mut diagnostics);
+    let given = Given { desc, sources, settled: &settled };
+    curved::place(given, &mut curved, &mut diagnostics);
+    csg::place_copies(given, &mut solid_objects, &mut diagnostics);
     let files: BTreeSet<PathBuf> =
         named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
     let mattes = Mattes::of(desc, builder.names());
     let finished = builder.finish(sources, &mut diagnostics);
     let background = environment::load(desc, sources, &mut diagnostics);
-    let placed = meshes::place(desc, sources, &loaded, &mut diagnostics);
+    let placed = placed::place(given, &loaded, &mut diagnostics);
     if diagnostics.iter().any(|d| d.severity == Severity::Error) {
         diagnostics.sort_by_key(|d| d.span);
         keep_first(&mut diagnostics);
@@ -376,7 +384,7 @@ pub fn named_files(desc: &SceneDesc) -> Vec<PathBuf> {
 
 /// One point per object near what the camera looks at, on its surface or in its box. What has no end says nothing of
 /// where a scene is, unless there is nothing else.
-fn marks(curved: &[Curved], solids: &[csg::SolidObject], placed: &meshes::Placed, look_at: DVec3) -> Vec<DVec3> {
+fn marks(curved: &[Curved], solids: &[csg::SolidObject], placed: &placed::Placed, look_at: DVec3) -> Vec<DVec3> {
     let of = |endless: bool| {
         let some = curved.iter().filter(move |object| object.is_endless() == endless);
         some.flat_map(move |object| object.marks(look_at))

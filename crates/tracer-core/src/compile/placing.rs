@@ -2,8 +2,9 @@
 
 use super::assets::Sources;
 use super::patterns;
+use super::settled::Settled;
 use glam::{DAffine3, DMat3, DVec3};
-use scene_format::desc::{Extent, Placements, Transform, group_fault};
+use scene_format::desc::{Extent, Moved, Object, Placements, Transform};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use tracer_mesh::placements::rotation;
@@ -17,46 +18,65 @@ pub struct Subject<'a> {
     /// The fixed point of steps that name none, where it is written, which goes with what is moved; `None`: the origin,
     /// which stays where it is.
     pub middle: Option<DVec3>,
-    /// How far it reaches where a map puts what is written; `None`: nobody knows, it is a group.
-    pub reach: Option<Reach<'a>>,
+    /// How far it reaches where a map puts what is written.
+    pub reach: Reach<'a>,
 }
 
 /// How far a thing reaches along an axis of the world (0, 1 or 2) under a map, from and to.
 pub type Reach<'a> = &'a dyn Fn(&DAffine3, usize) -> [f64; 2];
 
 impl Subject<'_> {
-    /// A group, about the origin.
-    const GROUP: Subject<'static> = Subject { noun: "group", local: DAffine3::IDENTITY, middle: None, reach: None };
-
-    /// A thing that is not known, since something else is wrong with it, of which no fault is told.
+    /// A thing that is not known, since something else is wrong with it, of which no fault is told; or of which nothing
+    /// is asked.
     pub fn unknown(noun: &str) -> Subject<'_> {
-        Subject { noun, local: DAffine3::IDENTITY, middle: None, reach: Some(&|_, _| [0.0, 1.0]) }
+        Subject { noun, local: DAffine3::IDENTITY, middle: None, reach: &|_, _| [0.0, 1.0] }
     }
 
     /// The same under a map: what placements move.
-    fn under<T>(&self, map: &DAffine3, then: impl FnOnce(&Subject<'_>) -> T) -> T {
-        let Some(reach) = self.reach else { return then(&Subject::GROUP) };
-        let reach = |placement: &DAffine3, axis: usize| reach(&(*placement * *map), axis);
-        then(&Subject { noun: self.noun, local: DAffine3::IDENTITY, middle: None, reach: Some(&reach) })
+    pub fn under<T>(&self, map: &DAffine3, then: impl FnOnce(&Subject<'_>) -> T) -> T {
+        let reach = |placement: &DAffine3, axis: usize| (self.reach)(&(*placement * *map), axis);
+        then(&Subject { noun: self.noun, local: DAffine3::IDENTITY, middle: None, reach: &reach })
     }
+}
+
+/// What places are read of.
+#[derive(Clone, Copy)]
+pub struct Given<'a> {
+    pub desc: &'a SceneDesc,
+    pub sources: &'a Sources<'a>,
+    pub settled: &'a Settled,
 }
 
 /// From an object's own frame to the world: its transforms and, after them, each copy's.
 pub fn place_all(
-    of: (&SceneDesc, &Sources<'_>),
+    given: Given<'_>,
     transforms: &[Spanned<Transform>],
     placements: &Placements,
     subject: &Subject<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Vec<DAffine3> {
     let map = place(transforms, subject, diagnostics);
-    let copies = subject.under(&map, |moved| copies(of, placements, moved, diagnostics));
+    let copies = subject.under(&map, |moved| copies(given, placements, None, moved, diagnostics));
     let map = map * subject.local;
     copies.into_iter().map(|copy| copy * map).collect()
 }
 
+/// From where an object of a group is written to the group, before that moves it, one map for each of its copies there.
+pub fn place_in(
+    given: Given<'_>,
+    object: &Object,
+    group: &Moved,
+    subject: &Subject<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<DAffine3> {
+    let map = place(object.transform(), subject, diagnostics);
+    let placements = object.placements();
+    let copies = subject.under(&map, |moved| copies(given, placements, Some(group), moved, diagnostics));
+    copies.into_iter().map(|copy| copy * map).collect()
+}
+
 /// Applies the transforms first to last. A step that cannot be done is left out, and told.
-fn place(transforms: &[Spanned<Transform>], subject: &Subject<'_>, diagnostics: &mut Diagnostics) -> DAffine3 {
+pub fn place(transforms: &[Spanned<Transform>], subject: &Subject<'_>, diagnostics: &mut Diagnostics) -> DAffine3 {
     let mut map = DAffine3::IDENTITY;
     for transform in transforms {
         let here = |about: &Option<Box<[f64; 3]>>, map: &DAffine3| {
@@ -71,20 +91,15 @@ fn place(transforms: &[Spanned<Transform>], subject: &Subject<'_>, diagnostics: 
             Transform::Rotate { axis, degrees, about } => {
                 Ok(about_point(rotation(DVec3::from(*axis), *degrees), here(about, &map)))
             }
-            Transform::DropTo { y } => match subject.reach {
-                Some(reach) => Ok(DAffine3::from_translation(DVec3::new(0.0, y - reach(&map, 1)[0], 0.0))),
-                None => Err(Box::new(group_fault(transform))),
-            },
+            Transform::DropTo { y } => {
+                Ok(DAffine3::from_translation(DVec3::new(0.0, y - (subject.reach)(&map, 1)[0], 0.0)))
+            }
             Transform::Matrix { rows } => Ok(of_rows(rows)),
             Transform::Align { from, to, about } => {
                 Ok(about_point(alignment(DVec3::from(**from), DVec3::from(**to)), here(about, &map)))
             }
             Transform::FitTo { extent, length, about } => {
-                let at = transform.span;
-                let factor = match subject.reach {
-                    Some(reach) => fit(*extent, *length, subject.noun, at, &|axis| reach(&map, axis)),
-                    None => Err(Box::new(group_fault(transform))),
-                };
+                let factor = fit(*extent, *length, subject.noun, transform.span, &|axis| (subject.reach)(&map, axis));
                 factor.map(|factor| about_point(DMat3::from_diagonal(DVec3::splat(factor)), here(about, &map)))
             }
         };
@@ -165,17 +180,18 @@ fn about_point(matrix: DMat3, point: DVec3) -> DAffine3 {
 /// Copies of one object, at most, those of the groups around it counted.
 const MOST_COPIES: u64 = 100_000_000;
 
-/// The maps of the copies, in the world. A fault of a group is told once, whatever stands in it.
-fn copies(
-    of: (&SceneDesc, &Sources<'_>),
+/// The maps of the copies: in the world, or in `group`. A fault of a group is told once, whatever stands in it.
+pub fn copies(
+    given: Given<'_>,
     placements: &Placements,
+    group: Option<&Moved>,
     subject: &Subject<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Vec<DAffine3> {
     match placements {
         Placements::One => vec![DAffine3::IDENTITY],
         Placements::List(list) => list.iter().map(|steps| place(steps, subject, diagnostics)).collect(),
-        Placements::File(file) => match of.1.placements(&of.0.base_dir.join(&file.value)) {
+        Placements::File(file) => match given.sources.placements(&given.desc.base_dir.join(&file.value)) {
             Ok(maps) => maps,
             Err(error) => {
                 diagnostics.push(error.to_diagnostic(file.span));
@@ -184,11 +200,16 @@ fn copies(
         },
         Placements::Pattern(pattern) => patterns::maps(pattern, diagnostics),
         Placements::Within(within) => {
-            let mut maps = copies(of, &within.own, subject, diagnostics);
+            let mut maps = copies(given, &within.own, None, subject, diagnostics);
             let mut found = Diagnostics::new();
-            for group in within.groups.outwards() {
-                let step = place(&group.transform, &Subject::GROUP, &mut found);
-                let around = copies(of, &group.placements, &Subject::GROUP, &mut found);
+            let inner = |outer: &&Moved| group.is_none_or(|group| !std::ptr::eq(*outer, group));
+            for group in within.groups.outwards().into_iter().take_while(inner) {
+                let (step, around) = given.settled.of(group).unwrap_or_else(|| {
+                    // It asks nothing, or something else is wrong with what stands in it.
+                    let of_group = Subject::unknown("group");
+                    let step = place(&group.transform, &of_group, &mut found);
+                    (step, copies(given, &group.placements, None, &of_group, &mut found))
+                });
                 if maps.len() as u64 * around.len() as u64 > MOST_COPIES {
                     let at = group.placements.files().first().map_or(Span::NONE, |file| file.span);
                     let message = format!("groups make more than {MOST_COPIES} copies of an object");
@@ -237,6 +258,11 @@ mod tests {
     use super::super::assets::DISK;
     use super::*;
 
+    /// Without groups that ask how far they reach.
+    fn given(desc: &SceneDesc) -> Given<'_> {
+        Given { desc, sources: &DISK, settled: Box::leak(Box::default()) }
+    }
+
     fn near(a: DVec3, b: [f64; 3]) {
         assert!((a - DVec3::from(b)).length() < 1e-12, "{a} {b:?}");
     }
@@ -257,7 +283,7 @@ mod tests {
         let mut found = Diagnostics::new();
         let map = place(
             steps,
-            &Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(middle), reach: Some(&low) },
+            &Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(middle), reach: &low },
             &mut found,
         );
         assert!(found.is_empty(), "{found:?}");
@@ -296,7 +322,7 @@ mod tests {
         let centres = |object: usize| -> Vec<DVec3> {
             let placements = desc.objects[object].value.placements();
             let subject = Subject::unknown("sphere");
-            let maps = place_all((&desc, &DISK), &[], placements, &subject, &mut Diagnostics::new());
+            let maps = place_all(given(&desc), &[], placements, &subject, &mut Diagnostics::new());
             maps.iter().map(|map| map.transform_point3(DVec3::ZERO)).collect()
         };
         let of = centres(0);
@@ -321,7 +347,7 @@ mod tests {
         let desc = loaded.expect("a scene").scene;
         let of = |object: usize| {
             let placements = desc.objects[object].value.placements();
-            place_all((&desc, &DISK), &[], placements, &Subject::unknown("sphere"), &mut Diagnostics::new())
+            place_all(given(&desc), &[], placements, &Subject::unknown("sphere"), &mut Diagnostics::new())
         };
         let centres: Vec<DVec3> = of(0).iter().map(|map| map.transform_point3(DVec3::ZERO)).collect();
         let inner = [[2.0, 0.0, 1.0], [0.0, 6.0, 1.0], [0.0, 0.0, 0.0], [0.0, 3.0, 1.0]];
@@ -404,8 +430,7 @@ mod tests {
         let fitted = |extent, about: Option<[f64; 3]>| {
             let fit = Transform::FitTo { extent, length: 12.0, about: about.map(Box::new) };
             let steps = [Transform::Translate([5.0, 0.0, 0.0]), stretched.clone(), turned.clone(), fit];
-            let subject =
-                Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: Some(&cube) };
+            let subject = Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: &cube };
             let mut found = Diagnostics::new();
             let map = place(&steps.map(Spanned::from), &subject, &mut found);
             assert!(found.is_empty(), "{found:?}");
@@ -427,8 +452,7 @@ mod tests {
             let rows = map.matrix3.row(axis).abs();
             [map.translation[axis] - rows.x - rows.z, map.translation[axis] + rows.x + rows.z]
         };
-        let subject =
-            Subject { noun: "rectangle", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: Some(&flat) };
+        let subject = Subject { noun: "rectangle", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: &flat };
         let fit = |extent| Transform::FitTo { extent, length: 1.0, about: None };
         let turn = Transform::Rotate { axis: [1.0, 0.3, 0.0], degrees: 90.0, about: None };
         let back = Transform::Rotate { axis: [1.0, 0.3, 0.0], degrees: -90.0, about: None };
@@ -443,10 +467,6 @@ mod tests {
         let far = Transform::Translate([1e9, 1e9, 0.0]);
         assert_eq!(faults(vec![far, turn.clone(), back, fit(Extent::Height)], &subject), told);
         assert!(faults(vec![turn, fit(Extent::Height), fit(Extent::Size)], &subject).is_empty());
-        // A group that was built in code.
-        for step in [fit(Extent::Size), Transform::DropTo { y: 0.0 }] {
-            assert_eq!(faults(vec![step], &Subject::GROUP)[0].0, codes::GROUP_DROP);
-        }
     }
 
     /// Copies are dropped and fitted where their own steps have put them.
@@ -459,8 +479,7 @@ mod tests {
         let list = steps.into_iter().map(|steps| steps.into_iter().map(Spanned::from).collect::<Vec<_>>());
         let placements = Placements::List(Box::new(list.collect()));
         let own = [Transform::Scale { factor: [1.0, 2.0, 1.0], about: None }].map(Spanned::from);
-        let subject =
-            Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: Some(&cube) };
+        let subject = Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: &cube };
         let desc = scene_format::load_str(
             "s",
             "Scene(objects: [Box(size: 1)])",
@@ -469,7 +488,7 @@ mod tests {
             &[],
         );
         let maps =
-            place_all((&desc.expect("a scene").scene, &DISK), &own, &placements, &subject, &mut Diagnostics::new());
+            place_all(given(&desc.expect("a scene").scene), &own, &placements, &subject, &mut Diagnostics::new());
         assert_eq!(maps.iter().map(|map| cube(map, 1)).collect::<Vec<_>>(), [[1.0, 5.0], [-4.0, 4.0]]);
     }
 }

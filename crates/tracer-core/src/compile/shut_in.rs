@@ -8,7 +8,8 @@
 use super::bodies::{Convex, Extent, MeshBody, Side};
 use super::csg::SolidObject;
 use super::curved::Curved;
-use super::meshes::{Loaded, Placed};
+use super::meshes::Loaded;
+use super::placed::Placed;
 use super::polygonal::{Geometry, Polygonal, UnitShape, polygonal};
 use super::unmeant::material_of;
 use glam::{DAffine3, DVec3};

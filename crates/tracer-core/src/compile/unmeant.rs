@@ -3,7 +3,8 @@
 
 use super::bodies::is_closed;
 use super::curved::Curved;
-use super::meshes::{Loaded, Placed};
+use super::meshes::Loaded;
+use super::placed::Placed;
 use super::polygonal::{Geometry, UnitShape, polygonal};
 use glam::{DAffine3, DVec3};
 use scene_format::desc::{Albedo, Material, MaterialRef};

@@ -54,6 +54,20 @@ pub struct Moved {
     pub placements: Placements,
 }
 
+impl Moved {
+    /// The first of its steps that asks how far reaches what stands in the group, in its placements, too.
+    pub fn asks_for_reach(&self) -> Option<&Spanned<Transform>> {
+        match &self.placements {
+            Placements::List(list) => asks(&self.transform).or_else(|| list.iter().find_map(asks)),
+            _ => asks(&self.transform),
+        }
+    }
+}
+
+fn asks(steps: &[Spanned<Transform>]) -> Option<&Spanned<Transform>> {
+    steps.iter().find(|step| matches!(step.value, Transform::DropTo { .. } | Transform::FitTo { .. }))
+}
+
 impl Groups {
     /// The groups from the innermost to the outermost.
     pub fn outwards(&self) -> Vec<&Moved> {

@@ -41,6 +41,10 @@ impl Told for Plane {
 
 impl ShapeWords for Plane {
     const MANY: &'static str = "planes";
+
+    fn is_endless(&self) -> bool {
+        true
+    }
 }
 
 impl Faulty for Plane {
