@@ -262,3 +262,86 @@ fn calls_and_brackets() {
         Syntax::Toml,
     );
 }
+
+/// What is one mistake is told once, mends at once, and what it becomes is right.
+fn check_once(cases: &[(&str, &str)]) {
+    for (written, _) in cases {
+        let found = errors(&scene(written, Syntax::Ron), Syntax::Ron);
+        let told: Vec<&str> = found.iter().map(|fault| fault.message.as_str()).collect();
+        assert_eq!(found.len(), 1, "{written}: {told:?}");
+    }
+    check(cases, Syntax::Ron);
+}
+
+#[test]
+fn arithmetic_in_and_behind_brackets_and_quotes() {
+    let ball = |radius: &str| format!("Sphere(center: (0, 0, 0), radius: {radius})");
+    let cases = [
+        ("(gap*0.5)", "\"=(gap*0.5)\""),
+        ("(1+2)", "\"=(1+2)\""),
+        ("(gap + 1)/2", "\"=(gap + 1)/2\""),
+        ("\"=gap\" + 1", "\"=gap + 1\""),
+        ("\"=gap/10\"*2", "\"=(gap/10)*2\""),
+        ("gap > 1 ? 4 : 5", "\"=if(gap > 1, 4, 5)\""),
+        ("5\u{a0}", "5"),
+    ]
+    .map(|(written, right)| (ball(written), ball(right)));
+    check_once(&cases.each_ref().map(|(written, right)| (written.as_str(), right.as_str())));
+}
+
+#[test]
+fn colors_without_quotes_and_of_other_languages() {
+    let ball = |albedo: &str| {
+        format!("Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: {albedo}), name: \"a\")")
+    };
+    let cases = [
+        ("#f00", "\"#ff0000\""),
+        ("#ff8800", "\"#ff8800\""),
+        ("new THREE.Color(0x87ceeb)", "\"#87ceeb\""),
+        ("THREE.Color(\"#87ceeb\")", "\"#87ceeb\""),
+        ("\"5000K\"", "\"=blackbody(5000)\""),
+        ("0.1 0.2 0.3", "(0.1, 0.2, 0.3)"),
+    ]
+    .map(|(written, right)| (ball(written), ball(right)));
+    check_once(&cases.each_ref().map(|(written, right)| (written.as_str(), right.as_str())));
+}
+
+#[test]
+fn signs_of_other_keyboards() {
+    check_once(&[
+        ("Sphere（center: (0, 0, 0), radius: 1)", "Sphere(center: (0, 0, 0), radius: 1)"),
+        ("Sphere（center：（0, 0, 0），radius: 1）", "Sphere(center:(0, 0, 0),radius: 1)"),
+        ("Sphere(center: (0, 0, 0), radius：1, name: \"：\")", "Sphere(center: (0, 0, 0), radius:1, name: \"：\")"),
+    ]);
+    // What is right may have such signs in texts.
+    assert!(errors(&scene("Sphere(center: (0, 0, 0), radius: 1, name: \"（\")", Syntax::Ron), Syntax::Ron).is_empty());
+}
+
+#[test]
+fn a_name_in_braces_without_its_colon() {
+    let text = "Scene(background: 1, materials: { \"white\" Diffuse(albedo: 0.8), \"red\": Mirror() },
+        objects: [Sphere(center: (0, 0, 0), radius: 1, material: \"white\")])";
+    let found = errors(text, Syntax::Ron);
+    assert_eq!(
+        found.iter().map(|fault| fault.message.as_str()).collect::<Vec<_>>(),
+        ["a `:` is missing after this name"]
+    );
+    let mended = apply_edits(text, &[found[0].edit.clone().expect("an edit")]);
+    assert!(mended.contains("\"white\": Diffuse") && errors(&mended, Syntax::Ron).is_empty(), "{mended}");
+}
+
+/// Constants of other languages are no texts; in which unit an angle was meant nobody knows, so no edit is offered.
+#[test]
+fn constants_of_other_languages_are_told() {
+    for (written, hint) in [
+        ("PI/3", "write \"=pi/3\"; angles are in degrees"),
+        ("Math.PI / 4", "write \"=pi / 4\"; angles are in degrees"),
+        ("M_PI/4", "write \"=pi/4\"; angles are in degrees"),
+        ("np.sqrt(2)", "write \"=sqrt(2)\"; angles are in degrees"),
+    ] {
+        let text = scene(&format!("Sphere(center: (0, 0, 0), radius: {written})"), Syntax::Ron);
+        let found = errors(&text, Syntax::Ron);
+        assert_eq!(found.len(), 1, "{text} {found:#?}");
+        assert_eq!((found[0].hint.as_str(), &found[0].edit), (hint, &None), "{text}");
+    }
+}

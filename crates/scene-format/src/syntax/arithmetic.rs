@@ -68,6 +68,62 @@ pub(super) fn ahead(text: &str, start: usize) -> Option<usize> {
     (!is_plain && depth == 0 && is_expression(&ours(body))).then_some(body.len())
 }
 
+/// Where the brackets around arithmetic begin and end, `(h*60)`, which are no vector's, with what goes on behind them.
+pub(super) fn with_brackets(text: &str, start: usize, end: usize) -> Option<(usize, usize)> {
+    let before = text[..start].trim_end_matches(' ').strip_suffix('(')?;
+    if before.ends_with(|c: char| c.is_alphanumeric() || c == '_') {
+        return None;
+    }
+    let after = text[end..].trim_start_matches(' ').strip_prefix(')')?;
+    let (open, close) = (before.len(), text.len() - after.len());
+    let whole = expression_ahead(&text[open..]).filter(|&length| open + length >= close);
+    Some(whole.map_or((start, end), |length| if open + length > close { (open, open + length) } else { (open, close) }))
+}
+
+/// An expression between quotes and what goes on behind them, ` + 1`, as one; with the length of that.
+pub(super) fn joined(inner: &str, rest: &str) -> Option<(String, usize)> {
+    if !reckons(rest) {
+        return None;
+    }
+    let line = super::line_ahead(rest, 0);
+    // Any name stands for what is between the quotes.
+    let length = expression_ahead(&format!("x{line}")).filter(|&length| length > 1)? - 1;
+    let simple = inner.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.'));
+    let inner = if simple { inner.to_owned() } else { format!("({inner})") };
+    Some((format!("{inner}{}", &line[..length]), length))
+}
+
+/// Arithmetic with the constants and functions of other languages that a line begins with, `Math.PI/4`, in ours, and
+/// its length; `None` where there is none.
+pub(super) fn of_languages(line: &str) -> Option<(String, usize)> {
+    let mut depth = 0usize;
+    let end = line.find(|sign| {
+        match sign {
+            '(' => depth += 1,
+            ')' if depth > 0 => depth -= 1,
+            ')' | ']' | '}' => return true,
+            ',' => return depth == 0,
+            _ => {}
+        }
+        false
+    });
+    let text = line[..end.unwrap_or(line.len())].trim_end();
+    const HEADS: [&str; 4] = ["Math.", "math.", "numpy.", "np."];
+    let mut body = HEADS.iter().fold(text.to_owned(), |body, head| body.replace(head, ""));
+    body = body.replace("M_PI", "pi");
+    let words: Vec<&str> = body.split_inclusive(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+    let body: String =
+        words.iter().map(|word| word.replacen("PI", "pi", usize::from(word.starts_with("PI")))).collect();
+    let value = expression::evaluate(&body, &mut |_| Named::Unknown(Vec::new()));
+    (body != text && value.is_ok()).then_some((body, text.len()))
+}
+
+/// Whether a comparison follows on a name whose line chooses by it: ` > 1 ? 2 : 3`.
+pub(super) fn chooses(after: &str) -> bool {
+    let is_comparison = after.trim_start_matches(' ').starts_with(['<', '>', '?', '!', '=']);
+    is_comparison && super::line_ahead(after, 0).split_once('?').is_some_and(|(_, values)| values.contains(':'))
+}
+
 /// Whether an operator follows on a name: ` * 2`.
 pub(super) fn reckons(after: &str) -> bool {
     let after = after.trim_start_matches(' ');

@@ -28,6 +28,15 @@ pub(super) fn report(
         end += next;
         count += 1;
     }
+    // `0 1.5 4`: without commas, too.
+    let blanks = count == 1;
+    while let Some(next) = next_after_blank(&text[end..]).filter(|_| blanks) {
+        end += next;
+        count += 1;
+    }
+    if blanks && count < 3 {
+        return None;
+    }
     let found = span(builder.source, start, end);
     let numbers = text.get(start..end)?;
     let fault = match count {
@@ -53,7 +62,8 @@ pub(super) fn report(
             let mut fault = Diagnostic::error(codes::NO_BRACKETS, found, "these numbers stand without brackets")
                 .expected(format!("a vector: {open}x, y, z{close}"));
             if count == 3 {
-                let mended = format!("{open}{numbers}{close}");
+                let parted: Vec<&str> = numbers.split([',', ' ', '\t']).filter(|number| !number.is_empty()).collect();
+                let mended = format!("{open}{}{close}", parted.join(", "));
                 fault = fault.hint(format!("write {mended}"));
                 fault.edit = Some(Edit { span: found, replacement: mended });
             }
@@ -76,5 +86,19 @@ fn next_number(rest: &str) -> Option<usize> {
     let after = number.trim_start_matches(of_number);
     let ends = after.trim_start_matches(BLANK);
     let ended = ends.is_empty() || ends.starts_with([',', ')', ']', '}', '\r', '\n', '#', '/']);
+    ended.then(|| rest.len() - after.len())
+}
+
+/// The length of blanks and a number on the same line, with what ends an entry after it, or another such number.
+fn next_after_blank(rest: &str) -> Option<usize> {
+    let number = rest.trim_start_matches([' ', '\t']);
+    let begins = |text: &str| text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.'));
+    if number.len() == rest.len() || !begins(number) {
+        return None;
+    }
+    let after = number.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.' | 'e' | '_'));
+    let ends = after.trim_start_matches([' ', '\t']);
+    let another = ends.len() < after.len() && begins(ends);
+    let ended = another || ends.is_empty() || ends.starts_with([',', ')', ']', '}', '\r', '\n', '#', '/']);
     ended.then(|| rest.len() - after.len())
 }

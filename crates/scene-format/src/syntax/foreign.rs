@@ -2,11 +2,67 @@
 
 use super::Syntax;
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Edit, Span};
 
 /// What a wrong text is as a whole; asked only where it is wrong.
 pub(crate) fn whole(text: &str, syntax: Syntax) -> Option<Diagnostic> {
-    conflict(text).or_else(|| language(text, syntax))
+    conflict(text).or_else(|| language(text, syntax)).or_else(|| wide_signs(text))
+}
+
+/// Brackets, colons and the like as Chinese and Japanese keyboards write them, outside of texts and comments: told and
+/// mended all at once, since where one is another is.
+fn wide_signs(text: &str) -> Option<Diagnostic> {
+    const WIDE: [(char, char); 10] = [
+        ('（', '('),
+        ('）', ')'),
+        ('［', '['),
+        ('］', ']'),
+        ('｛', '{'),
+        ('｝', '}'),
+        ('：', ':'),
+        ('＝', '='),
+        ('＂', '"'),
+        // Told by itself where there are no others.
+        ('，', ','),
+    ];
+    let plain = |sign: char| WIDE.iter().find(|(wide, _)| *wide == sign).map(|(_, plain)| *plain);
+    if !text.contains(|sign| sign != '，' && plain(sign).is_some()) {
+        return None;
+    }
+    let mut found: Vec<(usize, char)> = Vec::new();
+    let mut begin = 0;
+    for line in text.split_inclusive('\n') {
+        let mut quoted = false;
+        for (at, sign) in line.char_indices() {
+            match sign {
+                '"' => quoted = !quoted,
+                '/' if !quoted && line[at..].starts_with("//") => break,
+                _ if !quoted && plain(sign).is_some() => found.push((begin + at, sign)),
+                _ => {}
+            }
+        }
+        begin += line.len();
+    }
+    let (&(first, sign), &(last, last_sign)) = (found.first()?, found.last()?);
+    let span = |from: usize, to: usize| Span { source: 0, start: from as u32, end: to as u32 };
+    let at = span(first, first + sign.len_utf8());
+    let all = span(first, last + last_sign.len_utf8());
+    let mut mended = String::new();
+    let mut from = first;
+    for &(at, sign) in &found {
+        mended += &text[from..at];
+        mended.extend(plain(sign));
+        from = at + sign.len_utf8();
+    }
+    let mut signs: Vec<char> = found.iter().filter_map(|(_, sign)| plain(*sign)).collect();
+    signs.sort_unstable();
+    signs.dedup();
+    let signs: Vec<String> = signs.iter().map(|sign| format!("`{sign}`")).collect();
+    let message = format!("`{sign}` is a wide sign, which means nothing here");
+    let mut fault =
+        Diagnostic::error(codes::UNEXPECTED_CHARACTER, at, message).hint(format!("write plain {}", signs.join(", ")));
+    fault.edit = Some(Edit { span: all, replacement: mended });
+    Some(fault)
 }
 
 /// The marks that `git merge` leaves.

@@ -171,7 +171,7 @@ impl<'p> Parser<'p> {
                 if !plain && self.call_elsewhere(start) {
                     return;
                 }
-                let reckoned = !plain && arithmetic::reckons(after);
+                let reckoned = !plain && (arithmetic::reckons(after) || arithmetic::chooses(after));
                 if (expression::is_known(word) || reckoned) && self.arithmetic(start) {
                     return;
                 }
@@ -235,6 +235,14 @@ impl<'p> Parser<'p> {
             let name = name.to_owned();
             return self.named_value(start, end, &name);
         }
+        if let Some((body, length)) = arithmetic::of_languages(super::line_ahead(self.text, start)) {
+            // Whether an angle was meant, and in which unit, nobody knows: no edit is certain.
+            self.at = start + length;
+            let fault = arithmetic::without_quotes(&body, self.span(start, self.at));
+            let hint = format!("{}; angles are in degrees", fault.hint);
+            self.sink.push(Diagnostic { edit: None, hint, ..fault });
+            return self.builder.leaf(Kind::Broken, start, self.at);
+        }
         let found = self.span(start, self.at);
         let mut fault =
             Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("the text `{text}` is not between quotes"))
@@ -277,10 +285,12 @@ impl<'p> Parser<'p> {
                 fault.edit = Some(Edit { span: fault.span, replacement: format!("\"{}\"", &inner[..length]) });
             }
         } else if character == '#' && self.is_hex_color() {
-            let end = start + 7;
-            fault.span = self.span(start, end);
-            fault = fault.hint(format!("write \"{}\"", &self.text[start..end]));
-            fault.edit = Some(Edit { span: fault.span, replacement: format!("\"{}\"", &self.text[start..end]) });
+            let digits = &self.text[start + 1..start + 1 + self.hex_digits()];
+            let twice = if digits.len() == 3 { 2 } else { 1 };
+            let color: String = digits.chars().flat_map(|digit| std::iter::repeat_n(digit, twice)).collect();
+            fault.span = self.span(start, start + 1 + digits.len());
+            fault = fault.hint(format!("write \"#{color}\""));
+            fault.edit = Some(Edit { span: fault.span, replacement: format!("\"#{color}\"") });
         } else if character == '#' {
             fault = fault.hint("comments begin with `//`; colours are texts: \"#rrggbb\"");
         } else if matches!(character, '=' | ':' | ';') {

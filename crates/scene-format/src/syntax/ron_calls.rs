@@ -1,9 +1,11 @@
 //! Calls of other languages where a value stands: `THREE.Vector3(0, 1, 6)`, `np.array([0, 1, 6])`, `new Sphere(..)`.
 
+use super::arithmetic;
 use super::ron::Parser;
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::syntax::ron_literal::number_kind;
+use crate::tree::Kind;
 
 /// A call, by bytes from its beginning.
 struct Call {
@@ -50,7 +52,24 @@ impl Parser<'_> {
     pub(super) fn call_elsewhere(&mut self, start: usize) -> bool {
         let line = super::line_ahead(self.text, start);
         let Some(Call { name: [begin, end], brackets: [open, after] }) = call(line) else { return false };
+        // `Math.sqrt(2)` is no vector of one number.
+        if arithmetic::of_languages(line).is_some() {
+            return false;
+        }
         let inner = line[open + 1..after - 1].trim();
+        let hex = inner.strip_prefix("0x").or_else(|| inner.trim_matches(['"', '\'']).strip_prefix('#'));
+        if let Some(hex) = hex.filter(|hex| hex.len() == 6 && hex.bytes().all(|byte| byte.is_ascii_hexdigit())) {
+            let found = self.span(start, start + after);
+            let message = format!("`{}(..)` is of another language", &line[..open]);
+            let mut fault = Diagnostic::error(codes::OTHER_LANGUAGE, found, message)
+                .expected("a colour")
+                .hint(format!("write \"#{hex}\""));
+            fault.edit = Some(Edit { span: found, replacement: format!("\"#{hex}\"") });
+            self.sink.push(fault);
+            self.at = start + after;
+            self.builder.leaf(Kind::Broken, start, self.at);
+            return true;
+        }
         let list = inner.strip_prefix('[').and_then(|inner| inner.strip_suffix(']'));
         let numbers = list.unwrap_or(inner);
         let is_vector = numbers.split(',').all(|number| number_kind(number.trim()).is_some());

@@ -86,7 +86,7 @@ impl Parser<'_> {
     /// Reports what begins like a number and is none; `mended` is what was meant, where a space was too many.
     fn no_number(&mut self, start: usize, at: usize, lexeme: &str, mended: Option<String>) {
         let found = self.span(start, at.max(start + 1));
-        let plain = lexeme.replace(is_invisible, "");
+        let plain = lexeme.replace(|c: char| is_invisible(c) || !c.is_ascii() && c.is_whitespace(), "");
         let mended = mended.or_else(|| (plain.len() < lexeme.len() && number_kind(&plain).is_some()).then_some(plain));
         let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{lexeme}` is not a number"))
             .expected("a number such as 3, -0.25, 1.5e3 or 1_000");
@@ -198,7 +198,24 @@ impl Parser<'_> {
             return false;
         };
         self.at = start + length;
-        let fault = arithmetic::fault(self.text, &self.text[start..self.at], self.span(start, self.at));
+        let (from, to) = arithmetic::with_brackets(self.text, start, self.at).unwrap_or((start, self.at));
+        let fault = arithmetic::fault(self.text, &self.text[from..to], self.span(from, to));
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, start, self.at);
+        true
+    }
+
+    /// `"=h" + 1`: an expression that goes on behind its quotes, of which the last is at `at`; it is reported.
+    fn expression_goes_on(&mut self, start: usize, at: usize) -> bool {
+        let Some(inner) = self.text[start + 1..at].strip_prefix('=') else { return false };
+        let Some((body, length)) = arithmetic::joined(inner, &self.text[at + 1..]) else { return false };
+        self.at = at + 1 + length;
+        let found = self.span(start, self.at);
+        let mended = format!("\"={body}\"");
+        let mut fault =
+            Diagnostic::error(codes::BARE_EXPRESSION, found, "all of an expression stands between the quotes")
+                .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
         self.sink.push(fault);
         self.builder.leaf(Kind::Broken, start, self.at);
         true
@@ -316,6 +333,9 @@ impl Parser<'_> {
             return self.unclosed_text();
         }
         self.at = at + 1;
+        if bytes.get(start + 1) == Some(&b'=') && self.expression_goes_on(start, at) {
+            return;
+        }
         if escapes {
             let inner = &self.text[start + 1..at];
             let mut faults = Vec::new();

@@ -186,6 +186,17 @@ impl Parser<'_> {
             Some(b':') => self.at += 1,
             other => {
                 let equals = other == Some(b'=');
+                // `"white" Diffuse(..)`: all is there but the sign.
+                if other.is_some_and(|byte| byte.is_ascii_uppercase() || matches!(byte, b'(' | b'"')) {
+                    let end = start + self.text[start..self.at].trim_end().len();
+                    let found = self.span(end, end);
+                    let mut fault = Diagnostic::error(codes::MISSING_COLON, found, "a `:` is missing after this name")
+                        .expected("{ \"name\": value }")
+                        .hint("write `:`");
+                    fault.edit = Some(Edit { span: found, replacement: ":".to_owned() });
+                    self.sink.push(fault);
+                    return self.value();
+                }
                 let found = if equals { self.span(self.at, self.at + 1) } else { self.span(start, self.at) };
                 let mut fault =
                     Diagnostic::error(codes::MISSING_COLON, found, "a name and its value are joined by `:`")

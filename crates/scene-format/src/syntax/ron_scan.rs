@@ -157,10 +157,16 @@ impl Parser<'_> {
         true
     }
 
-    /// `#ff8800` without quotes.
+    /// `#ff8800` without quotes, or `#f80` before what ends a value.
     pub(super) fn is_hex_color(&self) -> bool {
-        let digits = self.rest().bytes().skip(1).take_while(u8::is_ascii_hexdigit).count();
-        digits == 6
+        let digits = self.hex_digits();
+        let ends = self.rest()[1 + digits..].starts_with([',', ')', ']', '}']);
+        digits == 6 || ends && digits == 3
+    }
+
+    /// How many digits follow on a `#`.
+    pub(super) fn hex_digits(&self) -> usize {
+        self.rest().bytes().skip(1).take_while(u8::is_ascii_hexdigit).count()
     }
 
     /// `/ ..` or `-- ..`: signs that begin no value.

@@ -20,7 +20,8 @@ pub struct Placed {
 pub fn place(given: Given<'_>, loaded: &Loaded, diagnostics: &mut Diagnostics) -> Placed {
     let mut placed = Placed { maps: Vec::new(), boxes: Vec::new() };
     for (object, file) in polygonal(given.desc).zip(&loaded.file_of_object) {
-        let mut place = |subject: &Subject<'_>| place_all(given, object.transform, object.placements, subject, diagnostics);
+        let mut place =
+            |subject: &Subject<'_>| place_all(given, object.transform, object.placements, subject, diagnostics);
         let Some(data) = file.map(|f| &loaded.files[f]) else {
             // A placements file is read even when the mesh is missing: all faults in one run.
             place(&Subject::unknown(object.noun));

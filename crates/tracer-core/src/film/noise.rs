@@ -26,6 +26,9 @@ use rayon::prelude::*;
 /// m of eighteen pixels: they tell the noise to a sixth of itself, half of sqrt(2/18).
 const FEW: f64 = 6.0;
 
+/// m of 72 pixels: they tell how fast the noise has fallen over two octaves to a sixth.
+const MANY: f64 = 24.0;
+
 /// What is known of the noise from the last octave of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Octave {
@@ -184,9 +187,10 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones.
+    /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones, and where few
+    /// pixels bear the noise: how fast it has fallen is chance there, and many samples more will meet others.
     pub fn noise_rate(&self) -> f64 {
-        self.octave.rate()
+        if self.octave.pixels < MANY { 1.0 } else { self.octave.rate() }
     }
 
     /// Mean variance of the pixels in the sums' own unit, as the octaves tell it, and how many pixels bear it.
