@@ -26,7 +26,7 @@ pub struct Watched {
     /// What counts beside them.
     news: News,
     /// What was in the scene's own file.
-    text: Option<u64>,
+    text: Option<Fingerprint>,
 }
 
 /// What counts beside the files that are known: one that nobody knows the name of may be missing.
@@ -41,11 +41,17 @@ pub enum News {
 }
 
 /// A number for what is in a file.
-fn contents(path: &Path) -> Option<u64> {
-    let bytes = fs::read(path).ok()?;
+pub type Fingerprint = u64;
+
+/// The number of these contents.
+pub fn fingerprint(bytes: &[u8]) -> Fingerprint {
     let mut hasher = DefaultHasher::new();
     bytes.hash(&mut hasher);
-    Some(hasher.finish())
+    hasher.finish()
+}
+
+fn contents(path: &Path) -> Option<Fingerprint> {
+    Some(fingerprint(&fs::read(path).ok()?))
 }
 
 impl Watched {

@@ -41,9 +41,18 @@ impl Guard {
     pub fn behind_token<'p>(&self, path: &'p str) -> Option<&'p str> {
         let path = path.strip_prefix('/')?;
         let (token, rest) = path.split_once('/')?;
-        // In a time that tells nothing of how much of it is right.
+        self.is_token(token).then_some(rest)
+    }
+
+    /// Whether a path is the page's, but for its last slash.
+    pub fn lacks_slash(&self, path: &str) -> bool {
+        path.strip_prefix('/').is_some_and(|token| self.is_token(token))
+    }
+
+    /// In a time that tells nothing of how much of it is right.
+    fn is_token(&self, token: &str) -> bool {
         let differs = token.bytes().zip(self.token.bytes()).fold(0, |differs, (a, b)| differs | (a ^ b));
-        (token.len() == self.token.len() && differs == 0).then_some(rest)
+        token.len() == self.token.len() && differs == 0
     }
 
     /// Whether a request comes from a page of ours, or from no page.
@@ -145,6 +154,10 @@ mod tests {
             &format!("{token}/"),
         ] {
             assert_eq!(guard.behind_token(path), None, "{path}");
+        }
+        assert!(guard.lacks_slash(&format!("/{token}")));
+        for path in ["/", "", &format!("/{token}/"), &format!("/{}", &token[1..]), token, &format!("//{token}")] {
+            assert!(!guard.lacks_slash(path), "{path}");
         }
         assert_ne!(token, Guard::new(guard.address).expect("random numbers").token());
     }

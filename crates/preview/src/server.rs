@@ -157,6 +157,9 @@ async fn answer(Extract(app): Extract<Arc<App>>, request: Request) -> Response {
                 let (parts, body) = request.into_parts();
                 route(&app, &path, &parts, body).await
             }
+            None if request.method() == Method::GET && app.guard.lacks_slash(request.uri().path()) => {
+                with_slash(&app, request.uri())
+            }
             None => refused(StatusCode::NOT_FOUND, "not found"),
         }
     } else {
@@ -172,6 +175,12 @@ async fn answer(Extract(app): Extract<Arc<App>>, request: Request) -> Response {
     set(HeaderName::from_static("cross-origin-resource-policy"), "same-origin");
     set(HeaderName::from_static("cross-origin-opener-policy"), "same-origin");
     response
+}
+
+/// The page's address as it was meant: all that the page asks for goes on from its last slash.
+fn with_slash(app: &App, uri: &Uri) -> Response {
+    let query = uri.query().map_or(String::new(), |query| format!("?{query}"));
+    (StatusCode::PERMANENT_REDIRECT, [(header::LOCATION, format!("/{}/{query}", app.guard.token()))]).into_response()
 }
 
 async fn route(app: &Arc<App>, path: &str, parts: &Parts, body: Body) -> Response {

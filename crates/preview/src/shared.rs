@@ -1,9 +1,9 @@
 //! What watch, studio and server share: orders to the studio, and what it has made.
 
-use crate::files::Watched;
+use crate::files::{Fingerprint, Watched};
 use crate::options::{Host, Options};
 use crate::told::{Told, WIDTH};
-use scene_format::SceneDesc;
+use scene_format::{SceneDesc, Viewpoint};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -22,17 +22,53 @@ pub struct Pose {
     pub position: [f64; 3],
     pub look_at: [f64; 3],
     pub up: [f64; 3],
-    pub fov: f64,
+    /// How much it sees, by the one of these three that the scene's camera goes by. One that sees all around has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fov: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub focal_length: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
 }
 
 impl Pose {
     pub fn of(desc: &SceneDesc) -> Self {
         let camera = &desc.camera;
+        let Viewpoint { fov, focal_length, height, .. } = Viewpoint::of(camera);
         Pose {
             position: camera.position.value,
             look_at: camera.look_at.value,
             up: camera.up.value,
-            fov: camera.fov.value,
+            fov,
+            focal_length,
+            height,
+        }
+    }
+
+    /// What it says otherwise than another one. Numbers that have gone to a page and come back may have lost a bit.
+    pub fn changes(&self, from: &Pose) -> Viewpoint {
+        let differs = |a: f64, b: f64| (a - b).abs() > 1e-13 * a.abs().max(b.abs());
+        let place = |new: [f64; 3], old: [f64; 3]| (0..3).any(|k| differs(new[k], old[k])).then_some(new);
+        let number = |new: Option<f64>, old: Option<f64>| new.filter(|new| old.is_none_or(|old| differs(*new, old)));
+        Viewpoint {
+            position: place(self.position, from.position),
+            look_at: place(self.look_at, from.look_at),
+            up: place(self.up, from.up),
+            fov: number(self.fov, from.fov),
+            focal_length: number(self.focal_length, from.focal_length),
+            height: number(self.height, from.height),
+        }
+    }
+
+    /// This one, moved so. By what it does not go by nothing is moved.
+    pub fn moved(&self, moves: &Viewpoint) -> Pose {
+        Pose {
+            position: moves.position.unwrap_or(self.position),
+            look_at: moves.look_at.unwrap_or(self.look_at),
+            up: moves.up.unwrap_or(self.up),
+            fov: self.fov.map(|fov| moves.fov.unwrap_or(fov)),
+            focal_length: self.focal_length.map(|length| moves.focal_length.unwrap_or(length)),
+            height: self.height.map(|height| moves.height.unwrap_or(height)),
         }
     }
 }
@@ -42,6 +78,8 @@ pub struct Stage {
     /// Counts the pictures that were begun.
     pub number: u64,
     pub desc: SceneDesc,
+    /// The camera as the scene has it, where it was not moved.
+    pub written: Pose,
     pub scene: Scene,
 }
 
@@ -84,8 +122,12 @@ pub struct State {
     pub frame: Option<Arc<Frame>>,
     /// Noise of a frame, by its number.
     pub noise: Option<(u64, f64)>,
-    /// The camera that stands in the file, as it was read.
+    /// The camera that stands in the file, as it was read last.
     pub written: Option<Pose>,
+    /// The file's contents then.
+    pub read: Option<Fingerprint>,
+    /// What persons have changed of that camera, and not written yet.
+    pub moves: Viewpoint,
     /// Samples per pixel that are being made.
     pub asked: u32,
     /// Camera samples that were there when the rendering began.
@@ -116,8 +158,8 @@ impl State {
 pub struct Orders {
     /// A file has changed.
     pub reload: bool,
-    /// The camera was moved; `Some(None)`: it is the file's again.
-    pub pose: Option<Option<Pose>>,
+    /// The camera was moved, or is the file's again.
+    pub moved: bool,
     /// A picture that is done is to have so many samples.
     pub samples: Option<u32>,
     /// Nobody sees more pixels than these: a larger picture is made so small that it fits.
@@ -127,8 +169,8 @@ pub struct Orders {
 
 impl Orders {
     fn is_empty(&self) -> bool {
-        let none = self.pose.is_none() && self.samples.is_none() && self.fit.is_none();
-        !self.reload && none && !self.quit
+        let none = self.samples.is_none() && self.fit.is_none();
+        !self.reload && !self.moved && none && !self.quit
     }
 }
 
@@ -167,6 +209,8 @@ impl Shared {
             frame: None,
             noise: None,
             written: None,
+            read: None,
+            moves: Viewpoint::default(),
             asked: 0,
             begun: 0,
             began: Instant::now(),
@@ -243,11 +287,17 @@ impl Shared {
         add(&mut orders);
         let urgency = match *orders {
             Orders { reload: true, .. } | Orders { quit: true, .. } => CHANGED,
-            Orders { pose: Some(_), .. } | Orders { fit: Some(_), .. } => MOVED,
+            Orders { moved: true, .. } | Orders { fit: Some(_), .. } => MOVED,
             _ => NONE,
         };
         self.waiting.store(urgency, Ordering::Relaxed);
         self.ordered.notify_all();
+    }
+
+    /// Has the camera stand so far from where the file has it.
+    pub fn move_camera(&self, moves: Viewpoint) {
+        self.state().moves = moves;
+        self.order(|orders| orders.moved = true);
     }
 
     /// The next orders, when there are any.

@@ -1,14 +1,13 @@
 //! The studio: one thread that makes the pictures. It reads the scene, compiles it, renders a draft and then the
 //! picture, and begins anew whenever there is an order.
 
-use crate::files::{News, Stamp};
+use crate::files::{Fingerprint, News, Stamp, fingerprint};
 use crate::options::Options;
 use crate::shared::{Frame, Orders, Phase, Pose, Shared, Stage, State, lock};
 use crate::told::{Told, file_of, told};
 use scene_format::codes;
-use scene_format::desc::{Camera, Projection};
 use scene_format::diagnostic::{Source, keep_first};
-use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
+use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax, Viewpoint};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -35,7 +34,7 @@ pub fn run(shared: &Arc<Shared>) {
     // Without it there is no noise to be seen, and all else goes on.
     let _ = std::thread::Builder::new().name("noise".to_owned()).spawn(move || tell_noise(&teller, &frames));
     let kept = shared.host.store().map_or_else(Kept::default, Kept::storing);
-    let mut studio = Studio { shared, read: None, pose: None, fit: None, stages: 0, kept, noise };
+    let mut studio = Studio { shared, read: None, fit: None, stages: 0, kept, noise };
     loop {
         let orders = shared.orders();
         if orders.quit {
@@ -77,8 +76,6 @@ struct Read {
 struct Studio<'a> {
     shared: &'a Arc<Shared>,
     read: Option<Read>,
-    /// The camera as the page has moved it.
-    pose: Option<Pose>,
     /// Pixels that can be seen, where there are bounds.
     fit: Option<[u32; 2]>,
     stages: u64,
@@ -89,16 +86,13 @@ struct Studio<'a> {
 
 impl Studio<'_> {
     fn follow(&mut self, orders: &Orders) {
-        if let Some(pose) = orders.pose {
-            self.pose = pose;
-        }
         self.fit = orders.fit.or(self.fit);
         let anew = orders.reload && self.reload();
         // Over what is wrong the last picture stays as it is; the camera is moved when all is well again.
         if self.shared.state().phase == Phase::Wrong && !anew {
             return;
         }
-        if anew || orders.pose.is_some() || self.is_resized() {
+        if anew || orders.moved || self.is_resized() {
             self.make();
         } else if let Some(samples) = orders.samples {
             self.go_on(samples);
@@ -108,7 +102,8 @@ impl Studio<'_> {
     /// Whether the picture that is there has another size than is wanted now.
     fn is_resized(&self) -> bool {
         let Some(read) = &self.read else { return false };
-        let desc = described(&read.desc, self.pose, self.fit, &self.shared.options);
+        let moves = self.shared.state().moves;
+        let desc = described(&read.desc, &moves, self.fit, &self.shared.options);
         let size = [desc.image.width.value, desc.image.height.value];
         self.shared.state().stage.as_ref().is_none_or(|stage| stage.scene.size != size)
     }
@@ -174,23 +169,26 @@ impl Studio<'_> {
         let began = SystemTime::now();
         let options = &self.shared.options;
         let stamps = lock(&self.shared.watched).stamps();
-        let Loaded { scene, warnings } = match load(&options.scene, options) {
-            Ok(loaded) => loaded,
+        let (Loaded { scene, warnings }, contents) = match load(&options.scene, options) {
+            Ok(read) => read,
             Err(error) => {
                 let (told, files) = faults(error, &options.scene, self.width());
                 self.is_wrong(told, files, began);
                 return false;
             }
         };
+        let written = Pose::of(&scene);
+        {
+            let mut state = self.shared.state();
+            if let Some(before) = state.written {
+                state.moves = still(state.moves, &written, &before);
+            }
+            (state.written, state.read) = (Some(written), contents);
+        }
         let same = self.read.as_ref().is_some_and(|read| read.desc.sources == scene.sources && read.stamps == stamps);
         // One that was interrupted by this order is made again.
         if same && self.shared.state().phase == Phase::Done {
             return false;
-        }
-        let written = Pose::of(&scene);
-        // Who has written another camera wants to see it.
-        if self.read.as_ref().is_some_and(|read| read.written != written) {
-            self.pose = None;
         }
         let warnings = told(&warnings, &scene.sources, &options.scene, self.width());
         self.read = Some(Read { desc: scene, warnings, written, stamps });
@@ -215,9 +213,12 @@ impl Studio<'_> {
         let began = SystemTime::now();
         let width = self.width();
         let Some(read) = &mut self.read else { return };
-        self.shared.change(|state| state.phase = Phase::Loading);
+        let moves = self.shared.change(|state| {
+            state.phase = Phase::Loading;
+            state.moves
+        });
         let options = &self.shared.options;
-        let desc = described(&read.desc, self.pose, self.fit, options);
+        let desc = described(&read.desc, &moves, self.fit, options);
         if let Some(why) = too_large(&desc, self.shared.host.free_memory()) {
             let files = tracer_core::named_files(&desc);
             return self.is_wrong(vec![Told::plain(why)], files, began);
@@ -244,14 +245,13 @@ impl Studio<'_> {
         self.shared.change(|state| {
             state.phase = Phase::Rendering;
             state.told = warnings;
-            state.written = Some(written);
             (state.asked, state.begun) = (scene.samples, 0);
             state.begin();
         });
-        self.render(desc, scene);
+        self.render(desc, scene, written);
     }
 
-    fn render(&mut self, desc: SceneDesc, mut scene: Scene) {
+    fn render(&mut self, desc: SceneDesc, mut scene: Scene, written: Pose) {
         let number = self.stages;
         let size = scene.size;
         let threads = self.shared.options.threads;
@@ -270,7 +270,7 @@ impl Studio<'_> {
                 show(self.shared, &self.noise, number, Arc::new(film), Some(size));
             }
         }
-        let stage = Arc::new(Stage { number, desc, scene });
+        let stage = Arc::new(Stage { number, desc, written, scene });
         self.shared.change(|state| state.stage = Some(Arc::clone(&stage)));
         if !self.shared.is_wanted(false) {
             return;
@@ -335,18 +335,35 @@ impl Observer for Watching<'_> {
     }
 }
 
-/// The scene, under its name without folders.
-fn load(path: &Path, options: &Options) -> Result<Loaded, LoadError> {
+/// What is left of a person's moves when the file has this camera in place of that one: who has written another camera
+/// wants to see it. Where a camera stands is one thing, how much it sees another.
+fn still(moves: Viewpoint, now: &Pose, before: &Pose) -> Viewpoint {
+    let place = |pose: &Pose| (pose.position, pose.look_at, pose.up);
+    let zoom = |pose: &Pose| (pose.fov, pose.focal_length, pose.height);
+    let mut moves = moves;
+    if place(now) != place(before) {
+        (moves.position, moves.look_at, moves.up) = (None, None, None);
+    }
+    if zoom(now) != zoom(before) {
+        (moves.fov, moves.focal_length, moves.height) = (None, None, None);
+    }
+    moves
+}
+
+/// The scene, under its name without folders, and the contents of its file.
+fn load(path: &Path, options: &Options) -> Result<(Loaded, Option<Fingerprint>), LoadError> {
     let io = |source| LoadError::Io { path: path.to_owned(), source };
     if std::fs::metadata(path).map_err(io)?.len() > MAX_FILE_BYTES {
         // Which tells so.
-        return scene_format::load_with(path, &options.overrides);
+        return scene_format::load_with(path, &options.overrides).map(|loaded| (loaded, None));
     }
     let bytes = std::fs::read(path).map_err(io)?;
+    let contents = fingerprint(&bytes);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let folder = path.parent().unwrap_or(Path::new(""));
     let syntax = options.syntax.or(Syntax::from_path(path));
-    scene_format::load_bytes(&name, bytes, syntax, folder, &options.overrides)
+    let loaded = scene_format::load_bytes(&name, bytes, syntax, folder, &options.overrides)?;
+    Ok((loaded, Some(contents)))
 }
 
 /// What is wrong with a scene that did not load and with the files that it names, and those files.
@@ -380,7 +397,7 @@ fn more_files(desc: &SceneDesc, scene: &Path) -> Vec<PathBuf> {
 }
 
 /// The scene with what options and page say, no larger than can be seen.
-fn described(desc: &SceneDesc, pose: Option<Pose>, fit: Option<[u32; 2]>, options: &Options) -> SceneDesc {
+fn described(desc: &SceneDesc, moves: &Viewpoint, fit: Option<[u32; 2]>, options: &Options) -> SceneDesc {
     let mut desc = desc.clone();
     if let Some([width, height]) = options.size {
         desc.image.width = width.into();
@@ -394,25 +411,8 @@ fn described(desc: &SceneDesc, pose: Option<Pose>, fit: Option<[u32; 2]>, option
     if let Some(samples) = options.samples {
         desc.render.samples = samples.into();
     }
-    if let Some(Pose { position, look_at, up, fov }) = pose {
-        desc.camera.position = position.into();
-        desc.camera.look_at = look_at.into();
-        desc.camera.up = up.into();
-        zoom(&mut desc.camera, fov);
-    }
+    moves.give(&mut desc.camera);
     desc
-}
-
-/// Makes a camera see as much as with this field of view, whatever it says it by; one that sees all around stays.
-fn zoom(camera: &mut Camera, fov: f64) {
-    let tangent = |degrees: f64| (degrees.to_radians() / 2.0).tan();
-    let nearer = tangent(camera.fov.value) / tangent(fov);
-    match (&mut camera.projection, &mut camera.focal_length) {
-        (Projection::Perspective, Some(length)) => length.value *= nearer,
-        (Projection::Perspective, None) => camera.fov = fov.into(),
-        (Projection::Orthographic { height }, _) => height.value /= nearer,
-        (Projection::Panorama | Projection::Fisheye { .. }, _) => {}
-    }
 }
 
 /// The largest size of the same shape that is neither larger nor beyond these bounds.

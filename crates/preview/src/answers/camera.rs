@@ -1,10 +1,11 @@
 //! The camera: moved by the page, and written into the scene's file.
 
 use super::{App, Refusal, aside, refused};
-use crate::camera::{self, Refused};
+use crate::camera::{self, Outcome, Refused};
 use crate::shared::{Pose, Shared};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
+use scene_format::Viewpoint;
 use serde::Deserialize;
 use std::sync::Arc;
 
@@ -12,24 +13,32 @@ use std::sync::Arc;
 pub struct Asked {
     /// Where the camera is to be; null: where the file has it.
     pose: Option<Pose>,
+    /// The file's camera as the page had it, which the pose was made of: only what is another counts. Left out: that of
+    /// now.
+    from: Option<Pose>,
 }
 
 /// Moves the camera, not in the file.
 pub fn moved(shared: &Shared, asked: &Asked) -> Response {
-    if let Some(pose) = &asked.pose
-        && let Err(why) = camera::check(pose)
-    {
-        return refused(StatusCode::BAD_REQUEST, why);
+    match &asked.pose {
+        None => shared.move_camera(Viewpoint::default()),
+        Some(pose) => {
+            if let Err(why) = camera::moved(shared, pose, asked.from.as_ref()) {
+                return refused(StatusCode::BAD_REQUEST, &why);
+            }
+        }
     }
-    shared.order(|orders| orders.pose = Some(asked.pose));
     StatusCode::NO_CONTENT.into_response()
 }
 
-/// Writes the camera as it is into the scene's file.
+/// Writes what was changed of the camera into the scene's file.
 pub async fn write(app: &Arc<App>) -> Response {
     let app = Arc::clone(app);
-    aside(move || match camera::write(&app.shared, &app.undo, None).map_err(told) {
-        Ok(fields) => axum::Json(serde_json::json!({ "edits": fields })).into_response(),
+    aside(move || match camera::write(&app.shared, &app.undo).map_err(told) {
+        Ok(Outcome { edits, expressions: 0 }) => axum::Json(serde_json::json!({ "edits": edits })).into_response(),
+        Ok(Outcome { edits, expressions }) => {
+            axum::Json(serde_json::json!({ "edits": edits, "expressions": expressions })).into_response()
+        }
         Err((status, why)) => refused(status, &why),
     })
     .await

@@ -5,6 +5,7 @@ use super::picture::{layer_names, tone_name};
 use crate::shared::{Phase, Pose, State, lock};
 use crate::told::Told;
 use axum::response::{IntoResponse, Response};
+use scene_format::SceneDesc;
 use serde::{Deserialize, Serialize};
 use std::future::pending;
 use std::sync::atomic::Ordering;
@@ -61,8 +62,13 @@ struct Shown<'s> {
     asked: u32,
     seconds: f64,
     look: Option<ShownLook>,
+    /// The camera of the picture, and as the file had it then.
     camera: Option<Pose>,
     written: Option<Pose>,
+    /// Whether something was changed of it that is not in the file.
+    moved: bool,
+    /// What the picture's height shows at a distance of one, where things become smaller with distance.
+    seen: Option<f64>,
     /// Samples that were there when the rendering began.
     samples_begun: u64,
     /// Whether a camera that was written can be taken back.
@@ -115,10 +121,19 @@ impl<'s> Shown<'s> {
             seconds: state.seconds(),
             look: look.map(|look| ShownLook { exposure: look.exposure, tone: tone_name(look.tone_map) }),
             camera: state.stage.as_ref().map(|stage| Pose::of(&stage.desc)),
-            written: state.written,
+            written: state.stage.as_ref().map(|stage| stage.written),
+            moved: !state.moves.is_empty(),
+            seen: state.stage.as_ref().map(|stage| seen(&stage.desc)),
             samples_begun: state.begun,
             undo: lock(&app.undo).is_some(),
             layers: layer_names().collect(),
         }
     }
+}
+
+/// What the picture's height shows at a distance of one.
+fn seen(desc: &SceneDesc) -> f64 {
+    let size = [desc.image.width.value, desc.image.height.value].map(f64::from);
+    let [half_height, _] = desc.camera.half_extents(desc.camera.size_for_one_eye(size));
+    2.0 * half_height
 }

@@ -16,11 +16,16 @@ const turn = (v, axis, angle) => {
 /** So near to `up` the camera does not come: there it would not know which way is up. */
 const STEEPEST = 0.02;
 
+/** How much a camera sees; each goes by one of them, and one that sees all around by none. */
+const ZOOMS = ["fov", "focal_length", "height"];
+
 export class CameraMover {
   constructor(say) {
     this.say = say;
     this.pose = null;
-    this.written = null;
+    // What the file had when the pose was taken: only what is another than that counts as moved.
+    this.from = null;
+    this.seen = null;
     this.sending = false;
     this.waiting = false;
     this.moved = 0;
@@ -31,17 +36,21 @@ export class CameraMover {
 
   /** What the program has; while the person moves, the page is ahead of it. */
   update(state) {
-    if (!this.sending && performance.now() - this.moved > 400) this.pose = state.camera;
-    this.written = state.written;
-    const same = JSON.stringify(state.camera) === JSON.stringify(state.written);
-    element("cameraWrite").disabled = same || !state.camera || state.phase === "wrong";
-    element("cameraReset").disabled = same;
+    if (!this.sending && performance.now() - this.moved > 400) {
+      this.pose = state.camera;
+      this.from = state.written;
+    }
+    this.seen = state.seen;
+    element("cameraWrite").disabled = !state.moved || !state.camera || state.phase === "wrong";
+    element("cameraReset").disabled = !state.moved;
     element("cameraUndo").disabled = !state.undo;
-    element("cameraNote").textContent = same ? "As the file has it" : "Moved here; not in the file";
+    element("cameraNote").textContent = state.moved ? "Moved here; not in the file" : "As the file has it";
     if (state.camera) {
       const list = (v) => v.map((x) => Number(x.toPrecision(4))).join(", ");
+      const zoom = ZOOMS.find((name) => name in state.camera);
       element("cameraShown").textContent =
-        `position ${list(state.camera.position)}\nlook_at ${list(state.camera.look_at)}\nfov ${Number(state.camera.fov.toPrecision(4))}`;
+        `position ${list(state.camera.position)}\nlook_at ${list(state.camera.look_at)}` +
+        (zoom ? `\n${zoom} ${list([state.camera[zoom]])}` : "");
     }
   }
 
@@ -69,7 +78,7 @@ export class CameraMover {
   pan(across, along) {
     if (!this.pose) return;
     const { right, above, distance } = this.axes();
-    const size = 2 * distance * Math.tan((this.pose.fov * Math.PI) / 360);
+    const size = this.pose.height ?? distance * (this.seen ?? 1);
     const by = add(right.map((x) => x * across * size), above, along * size);
     this.send({ ...this.pose, position: add(this.pose.position, by), look_at: add(this.pose.look_at, by) });
   }
@@ -81,10 +90,16 @@ export class CameraMover {
     this.send({ ...this.pose, position: add(this.pose.look_at, arm, factor) });
   }
 
+  /** Sees more or less, by a factor of what is seen, whatever the camera says that by. */
   zoom(factor) {
     if (!this.pose) return;
-    const half = Math.atan(Math.tan((this.pose.fov * Math.PI) / 360) * factor);
-    this.send({ ...this.pose, fov: Math.min(Math.max((360 / Math.PI) * half, 0.1), 175) });
+    const { fov, focal_length, height } = this.pose;
+    if (height !== undefined) this.send({ ...this.pose, height: height * factor });
+    else if (focal_length !== undefined) this.send({ ...this.pose, focal_length: focal_length / factor });
+    else if (fov !== undefined) {
+      const half = Math.atan(Math.tan((fov * Math.PI) / 360) * factor);
+      this.send({ ...this.pose, fov: Math.min(Math.max((360 / Math.PI) * half, 0.1), 175) });
+    } else this.say("The projection of this camera cannot be zoomed here");
   }
 
   /** One at a time: the last one counts. */
@@ -99,7 +114,7 @@ export class CameraMover {
     try {
       do {
         this.waiting = false;
-        await net.post("camera", { pose: this.pose });
+        await net.post("camera", { pose: this.pose, from: this.from });
       } while (this.waiting);
     } catch (error) {
       this.say(error.message);
@@ -114,9 +129,12 @@ export class CameraMover {
 
   async write() {
     try {
-      const { edits } = await net.post("camera/write", {});
+      // What was moved last is on its way.
+      while (this.sending) await new Promise((done) => setTimeout(done, 20));
+      const { edits, expressions } = await net.post("camera/write", {});
       this.moved = 0;
-      this.say(edits ? "The camera is written into the scene file" : "The file has this camera already");
+      if (expressions) this.say("The camera is written into the scene file, in place of expressions too; Undo puts them back");
+      else this.say(edits ? "The camera is written into the scene file" : "The file has this camera already");
     } catch (error) {
       this.say(error.message);
     }

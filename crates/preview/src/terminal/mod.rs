@@ -18,13 +18,14 @@ mod words;
 
 pub use ask::Protocol;
 
-use crate::camera::{self, Refused, Undo};
+use crate::camera::{self, Outcome, Refused, Undo};
 use crate::options::{Host, Options};
 use crate::shared::{Phase, Pose, Shared};
 use crate::{picture, work};
 use ask::{ASKS_KITTY, Abilities, Environment, QUESTIONS};
 use device::{Device, Leaving, Panics, leave};
 use input::{Input, Key, Token};
+use scene_format::Viewpoint;
 use screen::{Screen, View};
 use signals::Signals;
 use std::io::{self, Write};
@@ -153,7 +154,7 @@ struct Session {
     screen: Screen,
     undo: Mutex<Undo>,
     /// The camera where it was moved to last, ahead of the picture, and what stood in the file then.
-    pose: Option<(Pose, Option<Pose>)>,
+    pose: Option<(Pose, Pose)>,
     /// Stops beside the scene's exposure.
     exposure: f64,
     help: bool,
@@ -281,7 +282,7 @@ impl Session {
             Key::Char('-' | '_') => self.moved(|pose| orbit::dolly(pose, NEARER)),
             Key::Char('r') => {
                 self.pose = None;
-                self.shared.order(|orders| orders.pose = Some(None));
+                self.shared.move_camera(Viewpoint::default());
             }
             Key::Char('w') => self.write(),
             Key::Char('u') => match camera::undo(&self.shared, &self.undo) {
@@ -309,29 +310,28 @@ impl Session {
         self.moved(|pose| orbit::orbit(pose, right, above));
     }
 
-    /// The camera as the person has it: what is rendered is behind while it moves.
-    fn pose(&mut self) -> Option<Pose> {
+    /// The camera as the person has it, since what is rendered is behind while it moves, and as the file had it then.
+    fn pose(&mut self) -> Option<(Pose, Pose)> {
         let state = self.shared.state();
         // Who has written another camera meanwhile wants to see that one.
-        self.pose = self.pose.filter(|(_, written)| *written == state.written);
-        self.pose.map(|(pose, _)| pose).or_else(|| state.stage.as_ref().map(|stage| Pose::of(&stage.desc)))
+        self.pose = self.pose.filter(|(_, written)| Some(*written) == state.written);
+        self.pose.or_else(|| state.stage.as_ref().map(|stage| (Pose::of(&stage.desc), stage.written)))
     }
 
     fn moved(&mut self, how: impl FnOnce(&Pose) -> Pose) {
-        let Some(pose) = self.pose() else { return self.say("there is no picture yet") };
+        let Some((pose, written)) = self.pose() else { return self.say("there is no picture yet") };
         let pose = how(&pose);
-        if let Err(why) = camera::check(&pose) {
-            return self.say(why);
+        if let Err(why) = camera::moved(&self.shared, &pose, Some(&written)) {
+            return self.say(&why);
         }
-        self.pose = Some((pose, self.shared.state().written));
-        self.shared.order(|orders| orders.pose = Some(Some(pose)));
+        self.pose = Some((pose, written));
     }
 
     fn write(&mut self) {
-        let pose = self.pose();
-        match camera::write(&self.shared, &self.undo, pose) {
-            Ok(0) => self.say("the file has this camera already"),
-            Ok(_) => self.say("the camera is written into the file; u takes it back"),
+        match camera::write(&self.shared, &self.undo) {
+            Ok(Outcome { edits: 0, .. }) => self.say("the file has this camera already"),
+            Ok(Outcome { expressions: 0, .. }) => self.say("the camera is written into the file; u takes it back"),
+            Ok(_) => self.say("the camera is written into the file, in place of expressions too; u takes it back"),
             Err(Refused::Now(why) | Refused::Unwritten(why)) => self.say(&why),
         }
     }
@@ -359,7 +359,6 @@ impl Session {
     }
 
     fn view(&mut self) -> View {
-        let pose = self.pose();
         let shared = Arc::clone(&self.shared);
         let state = shared.state();
         let size = self.screen.size();
@@ -395,7 +394,7 @@ impl Session {
             seconds: state.seconds(),
             noise: noise.map(|(_, noise)| noise),
             exposure: self.exposure,
-            moved: pose.is_some() && pose != state.written,
+            moved: !state.moves.is_empty(),
             told: state.told.iter().filter(|told| (told.severity == "error") == (state.phase == Phase::Wrong)).count(),
         };
         self.note.take_if(|(_, until)| *until <= Instant::now());

@@ -32,7 +32,14 @@ mod tests {
 
     #[test]
     fn orbits_go_round_and_stop_at_the_poles() {
-        let pose = Pose { position: [1.0, 0.0, 5.0], look_at: [1.0, 0.0, 0.0], up: [0.0, 2.0, 0.0], fov: 40.0 };
+        let pose = Pose {
+            position: [1.0, 0.0, 5.0],
+            look_at: [1.0, 0.0, 0.0],
+            up: [0.0, 2.0, 0.0],
+            fov: Some(40.0),
+            focal_length: None,
+            height: None,
+        };
         let near = |pose: &Pose, position: [f64; 3]| {
             let far = (0..3).map(|axis| (pose.position[axis] - position[axis]).abs()).fold(0.0, f64::max);
             assert!(far < 1e-12, "{:?} is not {position:?}", pose.position);

@@ -43,7 +43,7 @@ fn without_the_token_there_is_nothing() {
         "/",
         "/state",
         "/frame",
-        &format!("/{token}"),
+        &format!("/{wrong}"),
         &format!("/{wrong}/"),
         &format!("/{wrong}/state"),
         "//",
@@ -52,6 +52,25 @@ fn without_the_token_there_is_nothing() {
         let answer = sandbox.send(&format!("GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"));
         assert_eq!((answer.status, answer.text().as_str()), (404, "not found"), "{path}");
     }
+}
+
+/// All that the page asks for goes on from the last slash, which is easily lost where an address is copied.
+#[test]
+fn the_address_without_its_last_slash_leads_to_the_page() {
+    let sandbox = Sandbox::new(SCENE);
+    let (host, token) = sandbox.place();
+    let ask = |method: &str, path: &str, host: &str| {
+        sandbox.send(&format!("{method} {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"))
+    };
+    let answer = ask("GET", &format!("/{token}"), &host);
+    assert_eq!(answer.status, 308);
+    assert!(answer.head.contains(&format!("location: /{token}/\r\n")), "{}", answer.head);
+    assert!(answer.head.contains("no-store") && answer.head.contains("no-referrer"), "{}", answer.head);
+    let answer = ask("GET", &format!("/{token}?a=1"), &host);
+    assert!(answer.head.contains(&format!("location: /{token}/?a=1\r\n")), "{}", answer.head);
+    assert_eq!(ask("GET", &format!("/{token}/"), &host).status, 200);
+    assert_eq!(ask("POST", &format!("/{token}"), &host).status, 404);
+    assert_eq!(ask("GET", &format!("/{token}"), "evil.example").status, 403);
 }
 
 #[test]

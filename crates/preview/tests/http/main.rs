@@ -4,6 +4,7 @@ mod camera;
 mod guard;
 mod saves;
 mod support;
+mod writes;
 
 use scene_format::{Override, Syntax};
 use std::path::Path;
