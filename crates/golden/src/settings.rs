@@ -83,6 +83,9 @@ impl Default for Settings {
     }
 }
 
+/// Which of some words one is nearest to that is none of them: the caller's own way, which is that of scenes.
+pub type Nearest<'a> = &'a dyn Fn(&str, &[&str]) -> Option<String>;
+
 /// Why there are no settings.
 #[derive(Debug, thiserror::Error)]
 pub enum SettingsError {
@@ -99,13 +102,59 @@ pub enum SettingsError {
         source: std::io::Error,
     },
     /// It is wrong.
-    #[error("{}: {message}", path.display())]
+    #[error("{}{wrong}", path.display())]
     Wrong {
         /// The file.
         path: PathBuf,
-        /// What is wrong, with its line.
-        message: String,
+        /// What is wrong with it.
+        wrong: Wrong,
     },
+}
+
+/// What is wrong with the text of such a file. Shown, it follows the file's name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wrong {
+    /// Line and column, from 1, where there is one.
+    pub at: Option<[usize; 2]>,
+    /// In a sentence.
+    pub message: String,
+}
+
+impl std::fmt::Display for Wrong {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if let Some([line, column]) = self.at {
+            write!(f, ":{line}:{column}")?;
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+impl Wrong {
+    fn new(message: impl Into<String>) -> Self {
+        Wrong { at: None, message: message.into() }
+    }
+
+    /// What the reader of TOML says, in the words of scenes.
+    fn of(error: &toml::de::Error, text: &str, nearest: Nearest<'_>) -> Self {
+        let at = error.span().map(|span| {
+            let before = text.get(..span.start).unwrap_or(text);
+            let line = before.rsplit('\n').next().unwrap_or(before);
+            [before.matches('\n').count() + 1, line.chars().count() + 1]
+        });
+        let said = error.message().trim_end().replace('\n', "; ");
+        // As serde words it: "unknown field `a`, expected one of `b`, `c`".
+        let words: Vec<&str> = said.split('`').skip(1).step_by(2).collect();
+        let message = match words.as_slice() {
+            [unknown, known @ ..] if said.starts_with("unknown ") => {
+                let tip = nearest(unknown, known).map(|near| format!("did you mean `{near}`?"));
+                let listed = || format!("expected one of `{}`", known.join("`, `"));
+                let what = if said.starts_with("unknown field") { "setting" } else { "word" };
+                format!("there is no {what} `{unknown}`; {}", tip.unwrap_or_else(listed))
+            }
+            _ => said.replace("expected u32", "expected a whole number from 0"),
+        };
+        Wrong { at, message }
+    }
 }
 
 impl Settings {
@@ -113,7 +162,7 @@ impl Settings {
     ///
     /// # Errors
     /// When there are none, or they cannot be understood.
-    pub fn load(folder: &Path) -> Result<Self, SettingsError> {
+    pub fn load(folder: &Path, nearest: Nearest<'_>) -> Result<Self, SettingsError> {
         let path = folder.join(FILE);
         let text = match std::fs::read_to_string(&path) {
             Ok(text) => text,
@@ -122,32 +171,49 @@ impl Settings {
             }
             Err(source) => return Err(SettingsError::Io { path, source }),
         };
-        Settings::parse(&text).map_err(|message| SettingsError::Wrong { path, message })
+        Settings::parse(&text, nearest).map_err(|wrong| SettingsError::Wrong { path, wrong })
     }
 
     /// Reads the text of such a file.
     ///
     /// # Errors
     /// What is wrong, with its line.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let settings: Settings = toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
+    pub fn parse(text: &str, nearest: Nearest<'_>) -> Result<Self, Wrong> {
+        let settings: Settings = toml::from_str(text).map_err(|error| Wrong::of(&error, text, nearest))?;
         let own = settings.scene.iter().map(|(name, own)| (name.as_str(), own.size, own.samples));
         for (name, size, samples) in own.chain([("", settings.size, settings.samples)]) {
             let of = if name.is_empty() { String::new() } else { format!("scene.\"{name}\": ") };
             if size.is_some_and(|[width, height]| !(1..=65_536).contains(&width) || !(1..=65_536).contains(&height)) {
-                return Err(format!("{of}size is two numbers of 1 to 65536, as in [128, 96]"));
+                return Err(Wrong::new(format!("{of}size is two numbers of 1 to 65536, as in [128, 96]")));
             }
             if samples == Some(0) {
-                return Err(format!("{of}samples is a number from 1"));
+                return Err(Wrong::new(format!("{of}samples is a number from 1")));
             }
         }
         if settings.flip.is_some_and(|flip| !(0.0..=1.0).contains(&flip)) {
-            return Err("flip is a number from 0 to 1, as in 0.01".to_owned());
+            return Err(Wrong::new("flip is a number from 0 to 1, as in 0.01"));
         }
         if settings.noise && settings.flip.is_some() {
-            return Err("flip is for folders that keep no noise: it goes with noise = false".to_owned());
+            return Err(Wrong::new("flip is for folders that keep no noise: it goes with noise = false"));
         }
         Ok(settings)
+    }
+
+    /// Sees that scenes of their own settings are scenes of the folder: a slip would leave one without them.
+    ///
+    /// # Errors
+    /// The first that is none.
+    pub fn expect_scenes(&self, folder: &Path, names: &[&str], nearest: Nearest<'_>) -> Result<(), SettingsError> {
+        let Some(unknown) = self.scene.keys().find(|name| !names.contains(&name.as_str())) else { return Ok(()) };
+        let tip = nearest(unknown, names).map_or_else(
+            || {
+                "its name is its path from the folder, without extension; the name alone where `scenes` lists it"
+                    .to_owned()
+            },
+            |near| format!("did you mean {near}?"),
+        );
+        let wrong = Wrong::new(format!("scene.\"{unknown}\": there is no scene of that name; {tip}"));
+        Err(SettingsError::Wrong { path: folder.join(FILE), wrong })
     }
 
     /// What holds for a scene.
@@ -167,9 +233,18 @@ impl Settings {
 mod tests {
     use super::*;
 
+    /// The first word that begins alike.
+    fn parse(text: &str) -> Result<Settings, Wrong> {
+        Settings::parse(text, &alike)
+    }
+
+    fn alike(word: &str, known: &[&str]) -> Option<String> {
+        known.iter().find(|known| known.get(..3) == word.get(..3)).map(|&near| near.to_owned())
+    }
+
     #[test]
     fn a_scene_goes_before_all() {
-        let settings = Settings::parse(
+        let settings = parse(
             "size = [48, 32]\nsamples = 32\ncamera = \"above\"\nset = [\"a=1\"]\n[scene.\"family/case\"]\n\
              samples = 64\nset = [\"b=2\"]\n[scene.door]\ncamera = \"door\"\n",
         )
@@ -181,23 +256,39 @@ mod tests {
         assert_eq!(settings.of("other").samples, Some(32));
         let cameras = ["other", "door"].map(|name| settings.of(name).camera);
         assert_eq!(cameras, [Some("above".to_owned()), Some("door".to_owned())]);
-        assert_eq!(Settings::parse(""), Ok(Settings::default()));
+        assert_eq!(parse(""), Ok(Settings::default()));
     }
 
     #[test]
     fn what_is_wrong_is_said() {
         for (text, said) in [
-            ("sample = 3", "line 1"),
+            ("noise = true\n  samles = 3", ":2:3: there is no setting `samles`; did you mean `samples`?"),
+            ("\n[scene.a]\nsead = 3", ":3:1: there is no setting `sead`; expected one of `size`, `samples`, `seed`,"),
             ("samples = 0", "samples is a number from 1"),
-            ("samples = -1", "line 1"),
+            ("samples = -1", "expected a whole number from 0"),
+            ("samples = ", ":1:1"),
             ("size = [0, 3]", "as in [128, 96]"),
             ("flip = 2.0\nnoise = false", "0 to 1"),
             ("flip = 0.1", "noise = false"),
             ("[scene.a]\nsize = [1, 70000]", "scene.\"a\": size"),
-            ("shows = \"all\"", "layer"),
+            ("shows = \"all\"", ":1:9: there is no word `all`; expected one of `picture`, `layer`"),
         ] {
-            let error = Settings::parse(text).expect_err(text);
-            assert!(error.contains(said), "{text}: {error}");
+            let error = parse(text).expect_err(text).to_string();
+            assert!(error.contains(said) && !error.contains('\n'), "{text}: {error}");
         }
+    }
+
+    /// What is said of a scene that there is not would count for none.
+    #[test]
+    fn settings_of_no_scene_are_told() {
+        let settings = parse("[scene.\"family/case\"]\nseed = 1\n[scene.doors]\nseed = 2").expect("right");
+        let told = |names: &[&str]| {
+            settings.expect_scenes(Path::new("golden"), names, &alike).map_err(|error| error.to_string())
+        };
+        assert_eq!(told(&["doors", "family/case", "more"]), Ok(()));
+        let error = told(&["door", "family/case"]).expect_err("no `doors`");
+        assert!(error.starts_with("golden/golden.toml: scene.\"doors\": there is no scene of that name"), "{error}");
+        assert!(error.ends_with("did you mean door?"), "{error}");
+        assert!(told(&["gate", "family/case"]).expect_err("none alike").contains("path from the folder"));
     }
 }

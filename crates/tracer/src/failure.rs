@@ -73,3 +73,19 @@ impl From<WriteError> for Failure {
         }
     }
 }
+
+/// Why a file that is named could not be read: in our words what whoever named it can mend, else in the system's.
+pub fn why(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "it is not there".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        io::ErrorKind::NotADirectory => "what its name takes for a folder is a file".to_owned(),
+        io::ErrorKind::PermissionDenied => "its permissions do not allow it".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// Whether a name leads to no file: so named, the input is wrong.
+pub fn leads_nowhere(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory)
+}

@@ -113,8 +113,12 @@ fn what_is_no_folder() {
     sandbox.run(&["golden", "run", "nowhere"]).ends(2).says(&["there is no folder nowhere", "tracer golden new"]);
     std::fs::create_dir(sandbox.path("some")).expect("a folder");
     sandbox.run(&["golden", "run", "some"]).ends(2).says(&["it has no golden.toml", "tracer golden new some"]);
-    sandbox.write("some/golden.toml", "sample = 3\n");
-    sandbox.run(&["golden", "run", "some"]).ends(2).says(&["some/golden.toml", "line 1", "sample"]);
+    let ran = sandbox.run(&["golden", "run", "scene.ron"]).ends(2);
+    ran.says(&["scene.ron is a file, and a folder is expected; name one that `tracer golden new` has made"]);
+    sandbox.run(&["golden", "run", "scene.ron/x"]).ends(2).says(&["there is no folder scene.ron/x"]);
+    sandbox.write("some/golden.toml", "# As others\nsamles = 3\n");
+    let ran = sandbox.run(&["golden", "run", "some"]).ends(2);
+    ran.says(&["error: some/golden.toml:2:1: there is no setting `samles`; did you mean `samples`?\n"]);
     sandbox.write("some/golden.toml", "");
     sandbox.run(&["golden", "run", "some"]).ends(2).says(&["there is no scene in some"]);
     sandbox.run(&["golden", "new", "some"]).ends(2).says(&["some/golden.toml is there already"]);
@@ -127,6 +131,38 @@ fn what_is_no_folder() {
     sandbox.run(&["golden", "new", "other", "--scene", "no.ron"]).ends(2).says(&["there is no scene file no.ron"]);
     assert!(!sandbox.path("other").exists());
     sandbox.run(&["golden", "new", "other", "--size", "0x3"]).ends(2).says(&["640x480"]);
+}
+
+/// Settings of a scene that there is not are a slip, which would leave the one that is meant without them.
+#[test]
+fn settings_of_no_scene_are_told() {
+    let sandbox = fresh();
+    let with = |name: &str| {
+        sandbox.write("golden/golden.toml", format!("size = [8, 8]\nsamples = 2\n[scene.\"{name}\"]\nseed = 3\n"));
+        sandbox.run(&["golden", "run", "golden"])
+    };
+    with("plan").ends(2).says(&["golden/golden.toml: scene.\"plan\": there is no scene", "did you mean plain?"]);
+    with("lamp").ends(2).says(&["scene.\"lamp\": there is no scene", "path from the folder"]);
+    accept(&sandbox, &["plain"]).ends(2).says(&["scene.\"lamp\": there is no scene"]);
+    with("room/lamp").ends(1);
+    with("plain").ends(1);
+}
+
+/// Hosts compare the paths of annotations with those of the repository, letter by letter.
+#[test]
+fn files_are_told_as_a_host_knows_them() {
+    let sandbox = Sandbox::new();
+    let new = ["golden", "new", "golden", "--samples", "1", "--size", "8x8"];
+    sandbox.run(&[&new[..], &["--scene", "scene.ron"]].concat()).ends(0);
+    let outputs = ["--junit", "a.xml", "--json", "a.json", "--github"];
+    let out = sandbox.run(&[&["golden", "run", "./golden"], &outputs[..]].concat()).ends(1).out_text();
+    assert!(out.contains("::error file=scene.ron,title="), "{out}");
+    assert!(sandbox.text("a.xml").contains(" file=\"scene.ron\""), "{}", sandbox.text("a.xml"));
+    let report: Value = serde_json::from_slice(&sandbox.read("a.json")).expect("JSON");
+    assert_eq!(report["scenes"][0]["file"], "scene.ron");
+    // A file in the folder stands where the folder should.
+    sandbox.write("golden/b.ron", SCENE);
+    sandbox.run(&["golden", "run", "golden/b.ron"]).ends(2).says(&["is a file", "name its folder, golden\n"]);
 }
 
 /// Scenes stay where they are; their settings are those of the folder.
@@ -297,7 +333,7 @@ fn the_page_of_the_manual() {
                     commands += 1;
                 }
             }
-            "toml" => assert!(tracer_golden::settings::Settings::parse(text).is_ok(), "{text}"),
+            "toml" => assert!(tracer_golden::settings::Settings::parse(text, &|_, _| None).is_ok(), "{text}"),
             "yaml" => {
                 let run = text.lines().find_map(|line| line.trim().strip_prefix("- run: tracer ")).expect("a step");
                 sandbox.shell(&format!("\"$T\" {run}")).ends(0);

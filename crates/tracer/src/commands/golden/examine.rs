@@ -5,17 +5,16 @@ use super::rendering::{NoPicture, Rendered, make};
 use crate::commands::scenes::is_scene;
 use crate::compare::flip::flip;
 use crate::compare::magma;
-use crate::failure::Failure;
-use std::io;
+use crate::failure::{Failure, leads_nowhere, why};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tracer_core::Level;
-use tracer_golden::folder::{Case, Folder};
+use tracer_golden::folder::{Case, Folder, plain};
 use tracer_golden::measured::Measured;
 use tracer_golden::noise::{Judgement, judge};
 use tracer_golden::outcome::{Flip, Outcome, Verdict};
 use tracer_golden::picture::Rgb8;
-use tracer_golden::settings::Settings;
+use tracer_golden::settings::{FILE, Settings};
 use tracer_golden::stored;
 
 /// A folder of scenes and expected pictures.
@@ -45,6 +44,23 @@ pub fn colours(x: f32) -> [u8; 3] {
     magma(x).map(|c| (c * 255.0 + 0.5) as u8)
 }
 
+/// The word that is meant, as in scenes.
+pub(super) fn nearest(word: &str, known: &[&str]) -> Option<String> {
+    scene_format::nearest(word, known.iter().copied()).map(str::to_owned)
+}
+
+/// A file stands where a folder is expected: that of the scene, often.
+fn no_folder(file: &Path) -> Failure {
+    let shown = file.display();
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let way = if folder.join(FILE).is_file() {
+        format!("name its folder, {}", folder.display())
+    } else {
+        "name one that `tracer golden new` has made".to_owned()
+    };
+    Failure::wrong(format!("{shown} is a file, and a folder is expected; {way}"))
+}
+
 impl Opened {
     /// Opens a folder.
     ///
@@ -53,14 +69,17 @@ impl Opened {
     pub fn open(path: &Path, name: &str) -> Result<Self, Failure> {
         let shown = path.display();
         match path.metadata() {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                return Err(Failure::could_not(format!("cannot read the folder {shown}: {error}")));
+            Err(error) if !leads_nowhere(&error) => {
+                return Err(Failure::could_not(format!("cannot read the folder {shown}: {}", why(&error))));
             }
             Ok(found) if found.is_dir() => {}
-            _ => return Err(Failure::wrong(format!("there is no folder {shown}; `tracer golden new` makes one"))),
+            Ok(_) => return Err(no_folder(path)),
+            Err(_) => return Err(Failure::wrong(format!("there is no folder {shown}; `tracer golden new` makes one"))),
         }
-        let settings = Settings::load(path).map_err(|error| Failure::Wrong(error.into()))?;
+        let settings = Settings::load(path, &nearest).map_err(|error| Failure::Wrong(error.into()))?;
         let folder = Folder::find(path, &settings, &is_scene).map_err(|error| Failure::Wrong(error.into()))?;
+        let names: Vec<&str> = folder.cases.iter().map(|case| case.name.as_str()).collect();
+        settings.expect_scenes(path, &names, &nearest).map_err(|error| Failure::Wrong(error.into()))?;
         Ok(Opened { name: name.to_owned(), path: path.to_owned(), settings, folder })
     }
 
@@ -136,7 +155,7 @@ impl Opened {
             expected: std::fs::read(&file).ok().and_then(|bytes| Rgb8::from_png(&bytes).ok()),
             actual: None,
             flip: None,
-            file,
+            file: plain(&file),
         };
         orphans.into_iter().map(outcome).collect()
     }
@@ -154,7 +173,7 @@ impl Expected {
         let bytes = |path: &Path| match std::fs::read(path) {
             Ok(bytes) => Ok(Some(bytes)),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(format!("cannot read {}: {error}", path.display())),
+            Err(error) => Err(format!("cannot read {}: {}", path.display(), why(&error))),
         };
         let Some(png) = bytes(&case.png)? else { return Ok(None) };
         let broken =

@@ -1,5 +1,6 @@
 //! `tracer golden new`: a folder becomes one of expected pictures.
 
+use super::examine::nearest;
 use crate::args::GoldenNewArgs;
 use crate::command_line::quoted;
 use crate::failure::{Failure, exit};
@@ -35,7 +36,7 @@ pub(super) fn run(args: &GoldenNewArgs, shell: &Shell) -> Result<ExitCode, Failu
     std::fs::create_dir_all(folder).map_err(|error| Failure::could_not(format!("cannot make {shown}: {error}")))?;
     let text = text(args, folder)?;
     // What cannot be read again is not written.
-    Settings::parse(&text).map_err(Failure::wrong)?;
+    Settings::parse(&text, &nearest).map_err(|wrong| Failure::wrong(format!("{FILE}{wrong}")))?;
     save(&file, text.as_bytes())?;
     if shell.is_told() {
         let folder = quoted(&folder.to_string_lossy());
