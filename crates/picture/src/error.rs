@@ -1,14 +1,14 @@
 //! Why a picture could not be written.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a file could not be written. In all cases an older file of that name is as it was.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
     /// The folder that the file should be in is not there.
-    #[error("cannot write {}: there is no folder {}; make it, or name another place", path.display(), folder.display())]
+    #[error("cannot write {}: {}", path.display(), no_folder(folder))]
     NoFolder {
         /// The file.
         path: PathBuf,
@@ -68,6 +68,14 @@ pub enum WriteError {
         /// Pixels down.
         height: u32,
     },
+}
+
+/// Why a file cannot be in a folder that is none: it is not there, or it, or what should hold it, is a file.
+fn no_folder(folder: &Path) -> String {
+    match folder.components().as_path().ancestors().find(|above| above.is_file()) {
+        Some(file) => format!("{} is a file, and no folder; name another place", file.display()),
+        None => format!("there is no folder {}; make it, or name another place", folder.display()),
+    }
 }
 
 /// What to do where a file cannot be written.

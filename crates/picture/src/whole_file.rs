@@ -54,16 +54,19 @@ pub fn probe(path: &Path) -> Result<(), WriteError> {
     }
 }
 
-/// Fewer bytes are a place that is kept, and nothing that somebody wrote.
-const WORTH: usize = 8;
-
 /// What is made again and again, and replaces what was made before without a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputKind {
     /// A picture.
     Picture,
-    /// A report, or a page or drawing that goes with a picture: JSON, XML, HTML, SVG.
+    /// A report, of a rendering or of expected pictures: JSON.
     Report,
+    /// The report of expected pictures that CI servers read: XML.
+    Junit,
+    /// The page that shows expected pictures: HTML.
+    Page,
+    /// The drawing of a path: SVG.
+    Drawing,
 }
 
 impl OutputKind {
@@ -71,14 +74,16 @@ impl OutputKind {
         match self {
             OutputKind::Picture => "picture",
             OutputKind::Report => "report of tracer",
+            OutputKind::Junit => "JUnit report of tracer",
+            OutputKind::Page => "page of golden pictures",
+            OutputKind::Drawing => "drawing of tracer inspect",
         }
     }
 
-    /// Whether a file that begins so is of this kind, or as good as empty: pictures by their first bytes, reports by
-    /// their first lines.
+    /// Whether a file that begins so is of this kind: pictures by their first bytes, texts by their first lines.
     fn is_begun_by(self, head: &[u8]) -> bool {
         let text = String::from_utf8_lossy(head);
-        let known = match self {
+        match self {
             OutputKind::Picture => {
                 let starts: [&[u8]; 9] = [
                     b"\x89PNG",
@@ -94,31 +99,34 @@ impl OutputKind {
                 starts.iter().any(|start| head.starts_with(start))
             }
             OutputKind::Report => {
-                let json = text.trim_start().starts_with('{');
                 let ours = ["\"report_version\"", "\"golden_version\""].iter().any(|word| text.contains(word));
-                json && ours
-                    || text.starts_with("<?xml") && text.contains("name=\"tracer golden\"")
-                    || text.starts_with("<!doctype html>") && text.contains("<h1>Golden pictures")
-                    || text.starts_with("<svg") && text.contains(", sample ")
+                text.trim_start().starts_with('{') && ours
             }
-        };
-        known || head.len() < WORTH
+            OutputKind::Junit => text.starts_with("<?xml") && text.contains("name=\"tracer golden\""),
+            OutputKind::Page => text.starts_with("<!doctype html>") && text.contains("<h1>Golden pictures"),
+            OutputKind::Drawing => text.starts_with("<svg") && text.contains(", sample "),
+        }
     }
 }
 
-/// Sees that what is made again and again replaces only what is of the same kind: a scene or a list of somebody's is
-/// not lost by a slip.
+/// Sees that what is made again and again replaces only what is of the same kind, or an empty file: a scene or a list
+/// of somebody's is not lost by a slip, however short it is.
 ///
 /// # Errors
 /// That something else is there.
 pub fn spare_other(path: &Path, kind: OutputKind) -> Result<(), WriteError> {
     /// So much of a file tells what it is: the page of goldens has its policy first.
     const HEAD: u64 = 4096;
-    let is_file = fs::metadata(path).is_ok_and(|found| found.is_file());
+    let is_file = match fs::metadata(path) {
+        Ok(found) => found.is_file(),
+        Err(error) if is_nowhere(&error) => false,
+        // Where nobody tells what is there, nothing is replaced.
+        Err(error) => return Err(io_error(path, error)),
+    };
     let mut head = Vec::new();
     // Who cannot read a file cannot say that it is a report.
     let known = is_file && fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head)).is_ok();
-    if !is_file || known && kind.is_begun_by(&head) {
+    if !is_file || known && (head.is_empty() || kind.is_begun_by(&head)) {
         return Ok(());
     }
     Err(WriteError::Other { path: path.to_owned(), noun: kind.noun() })
@@ -177,7 +185,7 @@ pub fn is_one_file(place: &Path, other: &Path) -> bool {
     // Asked once more: what cannot be read at all is told by whoever reads it.
     match (real_place(place), real_place(other).or_else(|_| real_place(other))) {
         (Ok(place), Ok(other)) => place == other,
-        (Err(error), _) => !matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory),
+        (Err(error), _) => !is_nowhere(&error),
         (_, Err(_)) => false,
     }
 }
@@ -196,11 +204,14 @@ pub fn spare(path: &Path, force: bool) -> Result<(), WriteError> {
     match path.symlink_metadata() {
         _ if force => Ok(()),
         Ok(found) if found.is_file() || found.is_symlink() => Err(WriteError::There { path: path.to_owned() }),
-        Err(error) if !matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
-            Err(io_error(path, error))
-        }
+        Err(error) if !is_nowhere(&error) => Err(io_error(path, error)),
         _ => Ok(()),
     }
+}
+
+/// Whether a name leads to nothing.
+fn is_nowhere(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory)
 }
 
 /// What a name stands for.
@@ -219,13 +230,12 @@ impl Target {
             Ok(found) if !found.is_file() => Ok(Target::Device),
             Ok(found) if found.permissions().readonly() => Err(WriteError::ReadOnly { path: owned() }),
             Ok(_) => fs::canonicalize(path).map(Target::File).map_err(|why| io_error(path, why)),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                let folder = folder_of(path);
+            Err(error) if is_nowhere(&error) => {
+                let ends_as_folder = path.as_os_str().as_encoded_bytes().last().is_some_and(|&b| b == b'/');
+                let folder = if ends_as_folder { path } else { folder_of(path) };
                 match fs::metadata(folder) {
                     Ok(found) if found.is_dir() => Ok(Target::File(owned())),
-                    Err(why) if !matches!(why.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
-                        Err(io_error(path, why))
-                    }
+                    Err(why) if !is_nowhere(&why) => Err(io_error(path, why)),
                     _ => Err(WriteError::NoFolder { path: owned(), folder: folder.to_owned() }),
                 }
             }

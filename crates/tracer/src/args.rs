@@ -340,7 +340,7 @@ Examples:
 Metrics: max, rmse, relmse, flip-mean, flip-max. Two EXR, HDR or PFM files are
 compared in linear radiance, others in display values of 0 to 1.
 Of two folders, pictures of one name are compared, and none may be missing.
-Exit codes: 0 within the limits, 1 above one, 2 no pictures or two sizes";
+Exit codes: 0 within the limits, 1 above one, 2 a picture missing, two sizes";
 
 /// `tracer compare`
 #[derive(Debug, Args)]

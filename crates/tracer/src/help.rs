@@ -3,9 +3,11 @@
 
 use crate::args::Cli;
 use crate::command_line::quoted;
+use crate::loading::nearby;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory};
+use scene_format::Syntax;
 use std::ffi::OsString;
 use std::path::Path;
 use tracer_core::mesh::MeshFormat;
@@ -166,7 +168,8 @@ pub fn command() -> Command {
         })
 }
 
-/// `tracer help`, `tracer help render` and `tracer scene.ron`, as the commands that they mean.
+/// `tracer help`, `tracer help render` and `tracer scene.ron`, as the commands that they mean; so what is wrong with a
+/// scene's name is told as `tracer render` tells it.
 pub fn meant(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let word = |k: usize| arguments.get(k).and_then(|word| word.to_str());
     match word(1) {
@@ -181,7 +184,7 @@ pub fn meant(mut arguments: Vec<OsString>) -> Vec<OsString> {
                 arguments.push("--help".into());
             }
         },
-        Some(scene) if is_scene(scene) && !scene.starts_with('-') => arguments.insert(1, "render".into()),
+        Some(scene) if is_path(scene) && of_file(scene).is_none() => arguments.insert(1, "render".into()),
         _ => {}
     }
     arguments
@@ -232,12 +235,20 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
     let tip = match error.kind() {
         ErrorKind::InvalidSubcommand => {
             let word = context(&error, ContextKind::InvalidSubcommand);
-            if let Some(near) = word.as_deref().and_then(|word| near_command(word, &words)) {
+            let near = word.as_deref().and_then(|word| near_command(word, &words));
+            // Within a command there is no place for a scene.
+            let scene =
+                word.as_deref().filter(|word| near.is_none() && words.first().is_some_and(|first| first == word));
+            let scene = scene.and_then(of_scene);
+            if scene.is_some() {
+                error.remove(ContextKind::SuggestedSubcommand);
+            }
+            if let Some(near) = near {
                 error.insert(ContextKind::SuggestedSubcommand, ContextValue::String(near));
             }
             match word.as_deref() {
                 Some("version") => Some("the version is told by tracer --version".to_owned()),
-                word => word.and_then(of_file),
+                word => scene.or_else(|| word.and_then(of_file)),
             }
         }
         ErrorKind::UnknownArgument => {
@@ -247,6 +258,10 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
             let elsewhere = option.as_deref().and_then(option_elsewhere).map(|ours| format!("here it is {ours}"));
             let of_option = || option.as_deref().filter(|_| before).and_then(of_option);
             let of_others = || of_other_commands(words.first()?, option.as_deref().filter(|_| !before)?);
+            if elsewhere.is_some() {
+                // An option that is spelt alike is not what it means.
+                error.remove(ContextKind::SuggestedArg);
+            }
             let tip = elsewhere.or_else(of_option).or_else(|| one_more(&words, option.as_deref()?)).or_else(of_others);
             if tip.is_none() && error.get(ContextKind::Suggested).is_some() {
                 // That it might be a value behind `--` is hardly ever meant.
@@ -305,7 +320,21 @@ fn context(error: &clap::Error, kind: ContextKind) -> Option<String> {
 }
 
 fn is_scene(word: &str) -> bool {
-    scene_format::Syntax::from_path(Path::new(word)).is_some()
+    Syntax::from_path(Path::new(word)).is_some()
+}
+
+/// Whether a word is a file's name or leads to one, which no command and no option does.
+fn is_path(word: &str) -> bool {
+    !word.starts_with('-') && (Path::new(word).extension().is_some() || word.contains(std::path::is_separator))
+}
+
+/// A folder, or a scene without its extension, stands where the command should.
+fn of_scene(word: &str) -> Option<String> {
+    let path = Path::new(word);
+    if path.is_dir() {
+        return Some(format!("{word} is a folder; name a scene file in it"));
+    }
+    nearby(path, |name| Syntax::from_path(name).is_some()).map(|near| format!("did you mean {near}?"))
 }
 
 /// A file stands where the command should.
@@ -386,6 +415,10 @@ mod tests {
             (&["tracer", "help", "render"], &["tracer", "render", "--help"]),
             (&["tracer", "help", "render", "-v"], &["tracer", "render", "--help"]),
             (&["tracer", "a.ron", "-o", "b.png"], &["tracer", "render", "a.ron", "-o", "b.png"]),
+            (&["tracer", "a.ro"], &["tracer", "render", "a.ro"]),
+            (&["tracer", "./folder", "-v"], &["tracer", "render", "./folder", "-v"]),
+            (&["tracer", "a.png"], &["tracer", "a.png"]),
+            (&["tracer", "-o", "a.png"], &["tracer", "-o", "a.png"]),
             (&["tracer", "check", "help"], &["tracer", "check", "help"]),
             (&["tracer"], &["tracer"]),
         ];

@@ -2,7 +2,7 @@
 
 use crate::args::{DiagnosticsForm, SceneArgs};
 use crate::cache::Cache;
-use crate::failure::Failure;
+use crate::failure::{Failure, leads_nowhere, why};
 use crate::memory::human;
 use crate::shell::{Shell, counted};
 use scene_format::desc::{Material, MaterialRef, with_operands};
@@ -57,11 +57,7 @@ pub fn load_to_look(args: &mut SceneArgs, shell: &Shell) -> Result<(SceneDesc, u
 fn loaded(args: &SceneArgs, bytes: Option<(String, Vec<u8>)>) -> Result<Result<Loaded, LoadError>, Failure> {
     let overrides = args.overrides();
     let syntax = args.syntax.map(Syntax::from);
-    if syntax.is_none()
-        && let Some(why) = no_scene(&args.scene)
-    {
-        return Err(Failure::wrong(why));
-    }
+    expect_none_else(&args.scene, syntax)?;
     if bytes.is_none() && !is_dash(&args.scene) && syntax.is_none() {
         return Ok(scene_format::load_with(&args.scene, &overrides));
     }
@@ -104,7 +100,7 @@ fn no_scene(path: &Path) -> Option<String> {
     let extension = path.extension()?.to_str()?.to_ascii_lowercase();
     let shown = path.display();
     let why = match extension.as_str() {
-        "png" | "jpg" | "jpeg" | "exr" | "hdr" | "pfm" => {
+        _ if is_picture(path) => {
             format!(
                 "{shown} is a picture, not a scene; `tracer new scene.ron --from {shown}` writes the one that tracer \
                  rendered it of, and as a texture it stands in one: Texture(file: \"..\")"
@@ -120,6 +116,18 @@ fn no_scene(path: &Path) -> Option<String> {
     path.is_file().then_some(why)
 }
 
+/// Sees that a scene that is to be read, of a syntax that the command line names or not, is no file of another kind:
+/// what is wrong with its text would be no help, and edits of it would ruin it.
+///
+/// # Errors
+/// It is one.
+pub fn expect_none_else(path: &Path, syntax: Option<Syntax>) -> Result<(), Failure> {
+    match no_scene(path) {
+        Some(why) if syntax.is_none() => Err(Failure::wrong(why)),
+        _ => Ok(()),
+    }
+}
+
 /// Sees that a path leads to a file that may be a scene; whether it is one, reading it tells.
 ///
 /// # Errors
@@ -128,14 +136,30 @@ pub fn expect_scene(path: &Path) -> Result<(), Failure> {
     if is_dash(path) {
         return Err(Failure::wrong("standard input cannot be saved again; name a scene file"));
     }
-    if let Some(why) = no_scene(path) {
-        return Err(Failure::wrong(why));
-    }
+    expect_none_else(path, None)?;
     let opened = std::fs::File::open(path).map_err(|error| unread(path, &error))?;
     if opened.metadata().is_ok_and(|found| found.is_dir()) {
         return Err(unread(path, &std::io::Error::other("it is a folder")));
     }
     Ok(())
+}
+
+/// Sees that a path leads to something, and to no folder. It is not opened: a pipe gives what it has once.
+///
+/// # Errors
+/// It does not.
+pub fn expect_there(path: &Path) -> Result<(), Failure> {
+    match path.metadata() {
+        Err(error) if leads_nowhere(&error) => Err(unread(path, &error)),
+        Ok(found) if found.is_dir() => Err(unread(path, &std::io::Error::other("it is a folder"))),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a name is that of a picture.
+pub fn is_picture(path: &Path) -> bool {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    matches!(extension.as_deref(), Some("png" | "jpg" | "jpeg" | "exr" | "hdr" | "pfm"))
 }
 
 /// So many names of a folder are looked at for a suggestion: a mistyped name must not take seconds in a folder of
@@ -163,7 +187,7 @@ pub fn nearby(path: &Path, is_kind: impl Fn(&Path) -> bool) -> Option<String> {
 ///
 /// # Errors
 /// When it cannot be read.
-pub fn read(scene: &Path) -> Result<(String, Vec<u8>), Failure> {
+fn read(scene: &Path) -> Result<(String, Vec<u8>), Failure> {
     let could_not = |name: &str, error: std::io::Error| Failure::could_not(format!("cannot read {name}: {error}"));
     let unread = |error| unread(scene, &error);
     if is_dash(scene) {
@@ -182,6 +206,15 @@ pub fn read(scene: &Path) -> Result<(String, Vec<u8>), Failure> {
     }
 }
 
+/// The same for those who take the text as it is, in a syntax that the command line names or not.
+///
+/// # Errors
+/// When it cannot be read, or is a picture or a mesh.
+pub fn read_text(scene: &Path, syntax: Option<Syntax>) -> Result<(String, Vec<u8>), Failure> {
+    expect_none_else(scene, syntax)?;
+    read(scene)
+}
+
 /// The failure of a scene that did not load, after its diagnostics were printed.
 pub fn told(error: LoadError, form: DiagnosticsForm, shell: &Shell) -> Failure {
     match error {
@@ -196,9 +229,14 @@ pub fn told(error: LoadError, form: DiagnosticsForm, shell: &Shell) -> Failure {
 /// Why a scene file could not be opened: a name that leads to none is wrong input.
 fn unread(path: &Path, error: &std::io::Error) -> Failure {
     let shown = path.display();
-    if error.kind() == std::io::ErrorKind::NotFound {
+    if leads_nowhere(error) {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let tip = match nearby(path, |name| Syntax::from_path(name).is_some()) {
             Some(near) => format!("did you mean {near}?"),
+            // None can be started there.
+            None if folder.is_some_and(|folder| !folder.is_dir()) => {
+                format!("{} is no folder", folder.unwrap_or(path).display())
+            }
             None if Syntax::from_path(path).is_some() => format!("`tracer new {shown}` starts one"),
             None => "the names of scenes end in .ron, .toml or .json".to_owned(),
         };
@@ -207,7 +245,7 @@ fn unread(path: &Path, error: &std::io::Error) -> Failure {
     if path.is_dir() {
         return Failure::wrong(format!("cannot read {shown}: it is a folder; name a scene file in it"));
     }
-    Failure::could_not(format!("cannot read the scene file {shown}: {error}"))
+    Failure::could_not(format!("cannot read the scene file {shown}: {}", why(error)))
 }
 
 /// What is neither read nor built anew.

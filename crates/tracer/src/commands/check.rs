@@ -25,10 +25,9 @@ fn check_all(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     let mut wrong = 0;
     let many = scenes.len();
     for scene in scenes {
-        if args.fix {
-            fix::fix(&scene, args.syntax.map(Syntax::from), shell)?;
-        }
-        match check(args, scene, shell) {
+        let syntax = args.syntax.map(Syntax::from);
+        let mended = if args.fix { fix::fix(&scene, syntax, shell) } else { Ok(()) };
+        match mended.and_then(|()| check(args, scene, shell)) {
             Ok(()) => {}
             // The others are checked all the same.
             Err(Failure::WrongScene) => wrong += 1,

@@ -4,7 +4,7 @@ use super::compare_folders;
 use crate::args::CompareArgs;
 use crate::compare::{Difference, Kind, Metric, Picture, difference, false_colours};
 use crate::failure::{Failure, exit};
-use crate::loading::nearby;
+use crate::loading::{is_picture, nearby};
 use crate::write::{Bits, Encoding, OutputKind, Place, Provenance, is_one_file, probe, spare_other, write};
 use serde_json::json;
 use std::io::Write;
@@ -106,10 +106,6 @@ pub(super) fn picture(path: &Path) -> Result<Picture, Failure> {
         )));
     }
     if !path.exists() {
-        let is_picture = |name: &Path| {
-            let extension = name.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-            matches!(extension.as_deref(), Some("png" | "jpg" | "jpeg" | "exr" | "hdr" | "pfm"))
-        };
         let tip = nearby(path, is_picture).map_or(String::new(), |near| format!("; did you mean {near}?"));
         return Err(Failure::wrong(format!("there is no picture {shown}{tip}")));
     }

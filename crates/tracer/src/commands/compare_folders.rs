@@ -3,7 +3,8 @@
 use super::compare::{Limit, as_json, picture, print};
 use crate::args::CompareArgs;
 use crate::compare::{Difference, difference};
-use crate::failure::{Failure, exit};
+use crate::failure::{Failure, exit, why};
+use crate::loading::is_picture;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -56,8 +57,14 @@ pub(super) fn run(args: &CompareArgs, limits: &[Limit]) -> Result<ExitCode, Fail
         true => format!("{:#}\n", json!(pairs.iter().map(|(name, pair)| value(name, pair)).collect::<Vec<_>>())),
         false => table(&pairs),
     })?;
+    // As of two pictures: 1 says that all were compared.
+    let all_compared = pairs.iter().all(|(_, pair)| matches!(pair, Pair::Compared(..)));
     let passes = pairs.iter().all(|(_, pair)| pair.passes());
-    Ok(ExitCode::from(if passes { exit::DONE } else { exit::FAILED }))
+    Ok(ExitCode::from(match (all_compared, passes) {
+        (false, _) => exit::WRONG,
+        (true, false) => exit::FAILED,
+        (true, true) => exit::DONE,
+    }))
 }
 
 /// The pictures of a folder and below by their paths in it; hidden ones are left out.
@@ -75,8 +82,7 @@ fn pictures(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Failure> {
                 }
                 continue;
             }
-            let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-            if matches!(extension.as_deref(), Some("png" | "jpg" | "jpeg" | "exr" | "hdr" | "pfm")) {
+            if is_picture(&path) {
                 let parts = path.strip_prefix(top).unwrap_or(&path).iter().map(|part| part.to_string_lossy());
                 found.insert(parts.collect::<Vec<_>>().join("/"), path);
             }
@@ -84,7 +90,8 @@ fn pictures(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Failure> {
         Ok(())
     }
     let mut found = BTreeMap::new();
-    let unlisted = |error| Failure::could_not(format!("cannot list {}: {error}", folder.display()));
+    let unlisted =
+        |error: std::io::Error| Failure::could_not(format!("cannot list {}: {}", folder.display(), why(&error)));
     list(folder, folder, &mut found).map_err(unlisted)?;
     Ok(found)
 }

@@ -2,7 +2,7 @@
 
 use crate::args::ConvertArgs;
 use crate::failure::{Failure, exit};
-use crate::loading::{asset_files, is_dash, read, told};
+use crate::loading::{asset_files, is_dash, read_text, told};
 use crate::shell::{Shell, counted};
 use crate::write::{is_one_file, save, spare};
 use scene_format::{LoadError, Syntax, mentioned_in};
@@ -30,7 +30,8 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
         }
         spare(path, args.force)?;
     }
-    let (name, bytes) = read(&args.scene)?;
+    let syntax = args.syntax.map(Syntax::from);
+    let (name, bytes) = read_text(&args.scene, syntax)?;
     let text = match String::from_utf8(bytes) {
         Ok(text) => text,
         // The reader tells where the fault is.
@@ -39,7 +40,7 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
             return Err(wrong.err().map_or(Failure::WrongScene, |error| told(error, args.diagnostics, shell)));
         }
     };
-    let syntax = args.syntax.map(Syntax::from).or_else(|| Syntax::from_path(&args.scene));
+    let syntax = syntax.or_else(|| Syntax::from_path(&args.scene));
     let from = syntax.unwrap_or_else(|| Syntax::guess(&text));
     let to = asked.or(by_name).unwrap_or(match from {
         Syntax::Ron => Syntax::Toml,

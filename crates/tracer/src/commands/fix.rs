@@ -1,7 +1,7 @@
 //! `tracer check --fix`: the edits that diagnostics offer, written into the scene.
 
 use crate::failure::Failure;
-use crate::loading::{is_dash, read};
+use crate::loading::{is_dash, read_text};
 use crate::shell::{Shell, counted};
 use crate::write::save;
 use scene_format::{Syntax, mend};
@@ -12,7 +12,7 @@ pub(super) fn fix(scene: &Path, syntax: Option<Syntax>, shell: &Shell) -> Result
     if is_dash(scene) {
         return Err(Failure::wrong("--fix writes into files; standard input is none"));
     }
-    let (name, bytes) = read(scene)?;
+    let (name, bytes) = read_text(scene, syntax)?;
     // What is no text has no edits; the check tells why.
     let Ok(before) = String::from_utf8(bytes) else { return Ok(()) };
     let syntax = syntax.or_else(|| Syntax::from_path(scene)).unwrap_or_else(|| Syntax::guess(&before));

@@ -3,7 +3,7 @@
 use super::scenes;
 use crate::args::FmtArgs;
 use crate::failure::{Failure, exit};
-use crate::loading::{is_dash, read, told};
+use crate::loading::{is_dash, read_text, told};
 use crate::shell::{Shell, counted};
 use crate::write::save;
 use scene_format::Syntax;
@@ -40,8 +40,9 @@ pub(super) fn run(args: &FmtArgs, shell: &Shell) -> Result<ExitCode, Failure> {
 
 /// Lays out one scene; whether it changes.
 fn tidy(args: &FmtArgs, scene: &Path, shell: &Shell) -> Result<bool, Failure> {
-    let (name, bytes) = read(scene)?;
-    let syntax = args.syntax.map(Syntax::from).or_else(|| Syntax::from_path(scene));
+    let syntax = args.syntax.map(Syntax::from);
+    let (name, bytes) = read_text(scene, syntax)?;
+    let syntax = syntax.or_else(|| Syntax::from_path(scene));
     let text = match String::from_utf8(bytes) {
         Ok(text) => text,
         // The reader tells where the fault is.

@@ -1,7 +1,8 @@
 //! What a picture was made of, as it tells itself.
 
 use crate::checkpoint::Record;
-use crate::failure::Failure;
+use crate::failure::{Failure, leads_nowhere, why};
+use crate::loading::{is_picture, nearby};
 use scene_format::{LoadError, Loaded, Override, SceneDesc, Syntax};
 use std::path::Path;
 use tracer_core::{LayerSet, layer_word};
@@ -13,11 +14,15 @@ use tracer_picture::{Told, ToldError, told as told_of};
 /// It is no picture, cannot be read, or its head is broken.
 pub fn told(picture: &Path) -> Result<Told, Failure> {
     let shown = picture.display();
+    if picture.is_dir() {
+        return Err(Failure::wrong(format!("cannot read {shown}: it is a folder; name a picture in it")));
+    }
     told_of(picture).map_err(|error| match error {
-        ToldError::Io(why) if why.kind() == std::io::ErrorKind::NotFound => {
-            Failure::wrong(format!("there is no picture {shown}"))
+        ToldError::Io(error) if leads_nowhere(&error) => {
+            let tip = nearby(picture, is_picture).map_or(String::new(), |near| format!("; did you mean {near}?"));
+            Failure::wrong(format!("there is no picture {shown}{tip}"))
         }
-        ToldError::Io(why) => Failure::could_not(format!("cannot read {shown}: {why}")),
+        ToldError::Io(error) => Failure::could_not(format!("cannot read {shown}: {}", why(&error))),
         error => Failure::wrong(format!("{shown}: {error}")),
     })
 }

@@ -12,7 +12,8 @@ use crate::opening::open;
 use crate::shell::{Shell, Verbosity};
 use crate::write::{Bits, Encoding, encode, save};
 use scene_format::{SceneDesc, hash_hex};
-use std::io::Write;
+use std::io::{Error, ErrorKind, Write};
+use std::net::SocketAddr;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -43,7 +44,10 @@ pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure
     }
     let listen = Listen { address: args.address, port: args.port };
     let preview = Preview::start(options, listen, program).map_err(|error| match error {
-        StartError::Listen { .. } => Failure::wrong(format!("--port, --address: {error}")),
+        StartError::Listen { at, source } => Failure::wrong(unheard(at, &source).unwrap_or_else(|| {
+            let error = StartError::Listen { at, source };
+            format!("--port, --address: {error}")
+        })),
         StartError::System(_) => Failure::could_not(error.to_string()),
     })?;
     let address = preview.address();
@@ -64,6 +68,20 @@ pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure
     }
     preview.wait();
     Ok(ExitCode::from(exit::FAILED))
+}
+
+/// Why it cannot be listened at an address, where whoever named that can mend it.
+fn unheard(at: SocketAddr, error: &Error) -> Option<String> {
+    let (address, port) = (at.ip(), at.port());
+    match error.kind() {
+        ErrorKind::AddrNotAvailable => Some(format!(
+            "--address {address}: this machine has no such address; 0.0.0.0 is all that it has, 127.0.0.1 itself alone"
+        )),
+        ErrorKind::PermissionDenied => {
+            Some(format!("--port {port}: the system does not give it to everybody; name one from 1024, or none"))
+        }
+        _ => None,
+    }
 }
 
 /// Draws in the terminal until a key or a signal ends it.

@@ -100,7 +100,8 @@ fn folders() {
     let table = sandbox.run(&["compare", "new", "old", "--fail-above", "max=0"]).ends(1).out_text();
     assert!(table.contains("max above the limit") && table.contains("1 failed"), "{table}");
     sandbox.write("new/extra.png", sandbox.read("b.png"));
-    let ran = sandbox.run(&["compare", "new", "old", "--json"]).ends(1);
+    // As of two files: 1 says that all were compared.
+    let ran = sandbox.run(&["compare", "new", "old", "--json"]).ends(2);
     let pairs: Value = serde_json::from_str(&ran.out_text()).expect("JSON");
     assert_eq!((&pairs[0]["verdict"], &pairs[0]["max"]), (&"equal".into(), &0.0.into()));
     assert_eq!((&pairs[2]["picture"], &pairs[2]["verdict"]), (&"extra.png".into(), &"is in new alone".into()));
@@ -108,6 +109,9 @@ fn folders() {
     sandbox.run(&["compare", "new", "old", "-o", "map.png"]).ends(2).says(&["two folders"]);
     sandbox.run(&["compare", "new", "a.png"]).ends(2).says(&["new: it is a folder", "two folders"]);
     sandbox.run(&["compare", "empty", "empty"]).ends(2).says(&["there is no picture in empty"]);
+    sandbox.run(&["render", "scene.ron", "-o", "old/extra.png", "--size", "20x12"]).ends(0);
+    let sizes = sandbox.run(&["compare", "new", "old", "--fail-above", "max=0"]).ends(2).out_text();
+    assert!(sizes.contains("is 40x24, and 20x12") && sizes.contains("max above the limit"), "{sizes}");
     sandbox.write("old/extra.png", "no picture");
     sandbox.run(&["compare", "new", "old"]).ends(2).says(&["old/extra.png is not a picture"]);
 }

@@ -12,6 +12,10 @@ fn a_wrong_command_line_ends_with_2() {
     render(&["-o", "a.gif"]).says(&["a.gif", "`.gif`", "png, exr, hdr, pfm"]);
     render(&["-o", "a"]).says(&["no extension", "a.png"]);
     render(&["-o", "."]).says(&["-o . is a folder", "-o ./scene.png"]);
+    render(&["-o", "./"]).says(&["-o ./ is a folder", "-o ./scene.png"]);
+    render(&["-o", "./.png"]).says(&["-o ./.png has no name before its extension; name it -o ./scene.png\n"]);
+    render(&["-o", ".exr"]).says(&["name it -o scene.exr\n"]);
+    render(&["-o", "no/"]).says(&["there is no folder no/; make it, and name the picture in it: -o no/scene.png\n"]);
     render(&["-o", "a.png", "-o", "a.png"]).says(&["a.png is given twice"]);
     render(&["-o", "a.png", "-o", "./a.png"]).says(&["./a.png is given twice (it is a.png)"]);
     render(&["-o", "a.png", "--report", "a.png"]).says(&["-o and --report"]);
@@ -241,9 +245,9 @@ fn a_file_is_known_under_all_its_names() {
     twice("a.png", "folder/../a.png");
     twice("folder/a.png", "other/a.png");
     twice("link.png", "folder/b.png");
-    sandbox.write("a.png", "old");
+    sandbox.write("a.png", "PF old");
     twice("a.png", "other/../a.png");
-    assert_eq!(sandbox.text("a.png"), "old");
+    assert_eq!(sandbox.text("a.png"), "PF old");
     // Two files are two, also under one name in two folders.
     sandbox.run(&["render", "scene.ron", "-o", "a.png", "-o", "folder/a.png"]).ends(0);
 }
@@ -270,6 +274,8 @@ fn a_wrong_command_gets_a_tip() {
     }
     wrong(&["version"], "tracer --version");
     wrong(&["render", "scene.ron", "--watch"], "tracer preview SCENE");
+    let ran = sandbox.run(&["render", "scene.ron", "--watch"]);
+    assert_eq!(ran.err.matches("tip: ").count(), 1, "{}", ran.err);
     sandbox.run(&["preview", "scene.ron", "--port", "abc"]).ends(2).says(&["expected a whole number in 0..=65535"]);
     sandbox.run(&["render", "scene.ron", "--seed", "-1"]).ends(2).says(&["expected a whole number in 0..=4294967295"]);
     sandbox.run(&["bench-figures", "foo"]).ends(2).says(&["expected the number of a figure, in 1..=9"]);
@@ -391,11 +397,11 @@ fn a_read_only_folder_ends_with_1() {
 #[test]
 fn a_full_disk_keeps_the_older_picture() {
     let sandbox = Sandbox::new();
-    sandbox.write("a.png", "old");
+    sandbox.write("a.png", "PF old");
     // Files may have one block: the write fails in its middle, as on a full disk.
     let line = r#"trap '' XFSZ; ulimit -f 1; exec "$T" render scene.ron -o a.png --size 200x200"#;
     sandbox.shell(line).ends(1).says(&["cannot write a.png"]);
-    assert_eq!(sandbox.text("a.png"), "old");
+    assert_eq!(sandbox.text("a.png"), "PF old");
     assert_eq!(sandbox.files(), ["a.png", "scene.ron"]);
 }
 
@@ -413,7 +419,7 @@ fn a_full_device_ends_with_1() {
 #[test]
 fn an_older_picture_is_replaced_and_its_permissions_stay() {
     let sandbox = Sandbox::new();
-    sandbox.write("a.png", "old");
+    sandbox.write("a.png", "PF old");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -534,43 +540,6 @@ fn mistyped_commands_and_options_of_others_get_tips_that_help() {
     sandbox.run(&["info", "-q"]).ends(2).says(&["tracer info has no -q, which render, merge, "]);
     let ran = sandbox.run(&["render", "scene.ron", "--foo"]).ends(2);
     assert!(!ran.err.contains("as a value"), "{}", ran.err);
-}
-
-/// Pictures replace pictures, reports replace reports; what somebody wrote is replaced by neither.
-#[test]
-fn what_is_something_else_is_not_replaced() {
-    let sandbox = Sandbox::new();
-    let notes = "what I wanted to remember: buy milk\n";
-    sandbox.write("other.ron", notes);
-    sandbox.write("notes.png", notes);
-    let render = |more: &[&str]| {
-        let line = ["render", "scene.ron", "--size", "4x4", "--samples", "1"];
-        sandbox.run(&[&line[..], more].concat())
-    };
-    render(&["-o", "a.png", "--report", "other.ron"]).ends(2).says(&["other.ron", "is no report", "name another"]);
-    render(&["-o", "notes.png"]).ends(2).says(&["notes.png", "is no picture"]);
-    assert_eq!((sandbox.text("other.ron"), sandbox.text("notes.png")), (notes.to_owned(), notes.to_owned()));
-    for name in ["a.png", "a.exr", "a.hdr", "a.pfm"] {
-        render(&["-o", name, "--report", "report.json"]).ends(0);
-        render(&["-o", name, "--report", "report.json"]).ends(0);
-    }
-    sandbox.write("empty.png", "");
-    render(&["-o", "empty.png"]).ends(0);
-    sandbox.run(&["compare", "a.png", "a.png", "-o", "notes.png"]).ends(2).says(&["is no picture"]);
-    fs::create_dir(sandbox.path("golden")).expect("a folder");
-    sandbox.write("golden/golden.toml", "");
-    sandbox.write("golden/one.ron", sandbox.text("scene.ron"));
-    for option in ["--json", "--junit", "--html"] {
-        sandbox.run(&["golden", "run", "golden", option, "other.ron"]).ends(2).says(&["is no report"]);
-        sandbox.run(&["golden", "run", "golden", option, "made"]).ends(1);
-        sandbox.run(&["golden", "run", "golden", option, "made"]).ends(1);
-        fs::remove_file(sandbox.path("made")).expect("it is there");
-    }
-    sandbox.write("logo.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"><circle r=\"9\"/></svg>");
-    sandbox.run(&["inspect", "scene.ron", "--pixel", "0,0", "--svg", "logo.svg"]).ends(2).says(&["logo.svg"]);
-    sandbox.run(&["inspect", "scene.ron", "--pixel", "0,0", "--svg", "a.svg"]).ends(0);
-    sandbox.run(&["inspect", "scene.ron", "--pixel", "0,0", "--svg", "a.svg"]).ends(0);
-    assert_eq!(sandbox.text("other.ron"), notes);
 }
 
 /// What is said of the materials of many mesh files is said once.

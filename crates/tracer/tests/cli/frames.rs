@@ -46,13 +46,18 @@ fn a_frame_has_the_same_bytes_alone_and_in_a_row() {
 #[test]
 fn existing_frames_are_skipped_only_when_asked() {
     let sandbox = film();
-    sandbox.write("a_1.png", "mine");
+    sandbox.write("a_1.png", "PF mine");
     let line = ["render", "film.ron", "--frames", "0-2", "-o", "a_#.png"];
     let ran = sandbox.run(&[&line[..], &["--skip-existing"]].concat()).ends(0);
     assert!(ran.err.contains("2 frames") && ran.err.contains("1 was there"), "{}", ran.err);
-    assert_eq!(sandbox.text("a_1.png"), "mine");
+    assert_eq!(sandbox.text("a_1.png"), "PF mine");
     sandbox.run(&line).ends(0);
-    assert_ne!(sandbox.read("a_1.png"), b"mine");
+    assert_ne!(sandbox.read("a_1.png"), b"PF mine");
+    // What is no picture is told before the first frame is made.
+    sandbox.write("b_1.png", "mine");
+    let line = ["render", "film.ron", "--frames", "0-2", "-o", "b_#.png"];
+    sandbox.run(&line).ends(2).says(&["b_1.png is there already and is no picture"]);
+    assert!(!sandbox.path("b_0.png").exists());
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn the_second_leaves_at_once() {
             "[Translate((0.1, 0, 0))], ".repeat(50)
         ),
     );
-    sandbox.write("a.png", "old");
+    sandbox.write("a.png", "PF old");
     let (mut child, _stderr) = started(&mut sandbox.command(&["render", "slow.ron", "-o", "a.png", "-v"]));
     interrupt(&child);
     std::thread::sleep(Duration::from_millis(50));
@@ -72,7 +72,7 @@ fn the_second_leaves_at_once() {
     interrupt(&child);
     assert_eq!(child.wait().expect("it ends").code(), Some(130));
     assert!(second.elapsed() < Duration::from_secs(1));
-    assert_eq!(sandbox.text("a.png"), "old");
+    assert_eq!(sandbox.text("a.png"), "PF old");
     assert_eq!(sandbox.files(), ["a.png", "scene.ron", "slow.ron"]);
 }
 

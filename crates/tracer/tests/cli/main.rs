@@ -26,6 +26,7 @@ mod layers;
 mod light_groups;
 mod mattes;
 mod motion;
+mod named;
 mod parts;
 mod render;
 mod report;

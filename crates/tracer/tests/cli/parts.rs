@@ -174,7 +174,15 @@ fn what_is_wrong_with_parts_is_named() {
     merge(&[one, "cut.tracer", three], &["--allow-missing"]).ends(0).says(&["warning: cut.tracer cannot be used"]);
     merge(&["cut.tracer"], &["--allow-missing"]).ends(1).says(&["no part is left"]);
     merge(&[one, "scene.ron"], &[]).ends(2).says(&["scene.ron is no part", "tracer render SCENE --part"]);
-    merge(&[one, "none.tracer"], &[]).ends(1).says(&["none.tracer cannot be used"]);
+    // What is not there is told in our words, whatever else is lost; it may be missing where parts may.
+    let ran = merge(&[one, "none.tracer", "cut.tracer"], &[]).ends(2);
+    assert!(ran.err.contains("there is no part none.tracer\n") && !ran.err.contains("os error"), "{}", ran.err);
+    merge(&[one, two, "scene.3of4.tracer"], &[]).ends(2).says(&["did you mean scene.3of3.tracer?"]);
+    merge(&[one, "none.tracer"], &["--allow-missing"]).ends(0).says(&["warning: there is no part none.tracer"]);
+    merge(&["none.tracer"], &["--allow-missing"]).ends(2).says(&["no part is left"]);
+    merge(&[one, "scene.ron/x"], &[]).ends(2).says(&["there is no part scene.ron/x"]);
+    let ran = merge(&[one, "."], &[]).ends(2);
+    assert!(ran.err.contains(". is a folder; name the parts in it") && !ran.err.contains("os error"), "{}", ran.err);
     sandbox.run(&["merge", one, two, three, "-o", one]).ends(2).says(&["-o scene.1of3.tracer"]);
     sandbox.run(&["merge", one, two, three, "-o", "a.png", "--report", one]).ends(2).says(&["would replace a part"]);
 }

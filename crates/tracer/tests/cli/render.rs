@@ -153,7 +153,10 @@ fn scene_from_standard_input_picture_to_standard_output() {
         let line = format!(r#""$T" convert scene.ron | "$T" render - -o - --format pfm {syntax}"#);
         assert_eq!(sandbox.shell(&line).ends(0).silent().out, sandbox.read("a.pfm"));
     }
-    sandbox.run(&["render", "scene.ron", "-o", "-"]).ends(2).says(&["--format", "png, exr, hdr, pfm"]);
+    // As help says: a picture without a name is a PNG.
+    let ran = sandbox.run(&["render", "scene.ron", "-o", "-"]).ends(0).silent();
+    assert!(ran.out.starts_with(b"\x89PNG"), "{}", ran.out_text());
+    sandbox.run(&["render", "scene.ron", "-o", "-", "--format", "gif"]).ends(2).says(&["png, exr, hdr, pfm"]);
 }
 
 #[test]

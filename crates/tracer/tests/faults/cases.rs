@@ -56,7 +56,13 @@ fn scene() -> Folder {
 /// The scene, with older files of these names.
 fn with(old: &[&str]) -> Folder {
     let folder = scene();
-    old.iter().for_each(|name| folder.write(name, "old"));
+    // Pictures and reports replace only what begins as theirs do.
+    let begin = |name: &str| match name.rsplit_once('.').map(|(_, extension)| extension) {
+        Some("png" | "exr" | "hdr" | "pfm") => "PF old",
+        Some("json") => "{ \"report_version\": 1 }",
+        _ => "old",
+    };
+    old.iter().for_each(|name| folder.write(name, begin(name)));
     folder
 }
 

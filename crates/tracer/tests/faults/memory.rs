@@ -42,7 +42,7 @@ fn large() -> Vec<Case> {
         folder.ready("render plain.ron -o board.png --size 600x600 --samples 1", 0);
         folder.write("scene.ron", SCENE);
         folder.write("sheet.off", sheet());
-        folder.write("a.png", "old");
+        folder.write("a.png", "PF old");
         folder
     };
     let film = || {

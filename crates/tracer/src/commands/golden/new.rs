@@ -3,7 +3,7 @@
 use super::examine::nearest;
 use crate::args::GoldenNewArgs;
 use crate::command_line::quoted;
-use crate::failure::{Failure, exit};
+use crate::failure::{Failure, exit, why};
 use crate::loading::expect_scene;
 use crate::shell::Shell;
 use crate::write::{WriteError, save, spare};
@@ -33,7 +33,8 @@ pub(super) fn run(args: &GoldenNewArgs, shell: &Shell) -> Result<ExitCode, Failu
         WriteError::There { .. } => Failure::wrong(format!("{} is there already; edit it", file.display())),
         error => error.into(),
     })?;
-    std::fs::create_dir_all(folder).map_err(|error| Failure::could_not(format!("cannot make {shown}: {error}")))?;
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::could_not(format!("cannot make {shown}: {}", why(&error))))?;
     let text = text(args, folder)?;
     // What cannot be read again is not written.
     Settings::parse(&text, &nearest).map_err(|wrong| Failure::wrong(format!("{FILE}{wrong}")))?;

@@ -174,7 +174,12 @@ impl<'a> Outputs<'a> {
             own.extend([opened.path.join(FILE), opened.path.join("log.md")]);
             self.spare(&own)?;
         }
-        self.files.iter().try_for_each(|(_, path)| Ok(spare_other(path, OutputKind::Report)?))
+        let kind = |option: &str| match option {
+            "--junit" => OutputKind::Junit,
+            "--json" => OutputKind::Report,
+            _ => OutputKind::Page,
+        };
+        self.files.iter().try_for_each(|(option, path)| Ok(spare_other(path, kind(option))?))
     }
 
     fn write(&self, outcomes: &[Outcome]) -> Result<(), Failure> {

@@ -50,7 +50,7 @@ pub(super) fn run(args: &InspectArgs, shell: &Shell) -> Result<ExitCode, Failure
     spare_inputs(args, &named)?;
     if let Some(svg) = &args.svg {
         probe(svg)?;
-        spare_other(svg, OutputKind::Report)?;
+        spare_other(svg, OutputKind::Drawing)?;
     }
     let scene = compile(&desc, args.scene.diagnostics, Known::Nothing, shell)?;
     spare_inputs(args, &scene.files)?;

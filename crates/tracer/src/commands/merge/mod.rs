@@ -3,13 +3,14 @@
 mod part;
 
 use super::render::outputs::{self, Output};
+use super::render::parts;
 use super::render::rescue::{Pictures, pictures};
 use super::render::write_report;
 use crate::args::{DenoiseName, MergeArgs};
 use crate::checkpoint::{Asked, differences, is_of_scene, look, mattes, part_told, picture_layers, provenance};
 use crate::denoising::{self, Denoiser, Developed};
-use crate::failure::{Failure, exit};
-use crate::loading::{is_dash, use_threads};
+use crate::failure::{Failure, exit, leads_nowhere, why};
+use crate::loading::{is_dash, nearby, use_threads};
 use crate::memory;
 use crate::merge_report::{MergeReport, PartReport};
 use crate::shell::{Shell, counted};
@@ -31,9 +32,9 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     outputs::probe(&outputs, args.report.as_deref())?;
     spare_parts(args, files(&outputs))?;
     let denoiser = Denoiser::ready(args.denoise.how())?;
-    let (parts, damaged) = read(&args.parts)?;
+    let found = read(&args.parts)?;
     let allowed = if args.allow_missing { Gaps::Allowed } else { Gaps::Refused };
-    let Sorted { parts, gaps } = sorted(parts, damaged, args, allowed, shell)?;
+    let Sorted { parts, gaps } = sorted(found, args, allowed, shell)?;
     let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
     spare_scene(args, files(&outputs), &heads)?;
     outputs::spare_others(&outputs, args.report.as_deref())?;
@@ -136,9 +137,27 @@ fn spare_parts<'a>(
 /// A file and its head.
 type Head = (PathBuf, FilmHead);
 
+/// What the named files hold.
+struct Found {
+    /// The parts that are whole.
+    parts: Vec<Head>,
+    /// What is wrong with the others.
+    lost: Vec<String>,
+    /// Whether one of the others is not there: then the command line is wrong.
+    is_misnamed: bool,
+}
+
+impl Found {
+    /// How it ends where what was found is not enough.
+    fn failure(is_misnamed: bool, lost: &[String]) -> Failure {
+        let told = lost.join("\n  ");
+        if is_misnamed { Failure::wrong(told) } else { Failure::could_not(told) }
+    }
+}
+
 /// The parts that are whole, and what is wrong with the others. Every file is read to its end before anything is made
 /// of any.
-fn read(paths: &[PathBuf]) -> Result<(Vec<Head>, Vec<String>), Failure> {
+fn read(paths: &[PathBuf]) -> Result<Found, Failure> {
     for (k, path) in paths.iter().enumerate() {
         if is_dash(path) {
             return Err(Failure::wrong("parts are files, which are read twice: standard input cannot be one"));
@@ -152,20 +171,35 @@ fn read(paths: &[PathBuf]) -> Result<(Vec<Head>, Vec<String>), Failure> {
         file.and_then(SavedFilm::open).and_then(SavedFilm::check).map(|head| (path.clone(), head))
     };
     let checked: Vec<Result<Head, FilmError>> = paths.par_iter().map(check).collect();
-    let (mut parts, mut damaged) = (Vec::new(), Vec::new());
+    let mut found = Found { parts: Vec::new(), lost: Vec::new(), is_misnamed: false };
     for (path, checked) in paths.iter().zip(checked) {
+        let shown = path.display();
         match checked {
-            Ok(part) => parts.push(part),
+            Ok(part) => found.parts.push(part),
+            Err(FilmError::Io(error)) if leads_nowhere(&error) => {
+                let is_part = |name: &Path| name.extension().is_some_and(|extension| extension == parts::EXTENSION);
+                // One that is named already is not meant.
+                let near = nearby(path, is_part).filter(|near| !paths.iter().any(|path| path == Path::new(near)));
+                let tip = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+                found.lost.push(format!("there is no part {shown}{tip}"));
+                found.is_misnamed = true;
+            }
+            Err(FilmError::Io(_)) if path.is_dir() => {
+                found.lost.push(format!("{shown} is a folder; name the parts in it"));
+                found.is_misnamed = true;
+            }
+            Err(FilmError::Io(error)) => {
+                found.lost.push(format!("{shown} cannot be used: it cannot be read: {}", why(&error)));
+            }
             Err(FilmError::Foreign) => {
                 return Err(Failure::wrong(format!(
-                    "{} is no part; parts are made by `tracer render SCENE --part K/N`",
-                    path.display()
+                    "{shown} is no part; parts are made by `tracer render SCENE --part K/N`"
                 )));
             }
-            Err(error) => damaged.push(format!("{} cannot be used: {error}", path.display())),
+            Err(error) => found.lost.push(format!("{shown} cannot be used: {error}")),
         }
     }
-    Ok((parts, damaged))
+    Ok(found)
 }
 
 /// Parts that belong together, in the rendering's own order.
@@ -175,16 +209,10 @@ struct Sorted {
 }
 
 /// Sees that the parts belong together; all that is wrong is told at once.
-fn sorted(
-    mut parts: Vec<Head>,
-    damaged: Vec<String>,
-    args: &MergeArgs,
-    allowed: Gaps,
-    shell: &Shell,
-) -> Result<Sorted, Failure> {
+fn sorted(found: Found, args: &MergeArgs, allowed: Gaps, shell: &Shell) -> Result<Sorted, Failure> {
+    let Found { mut parts, mut lost, is_misnamed } = found;
     parts.sort_by_key(|(path, head)| (head.part().first, head.part().crop.y, path.clone()));
     let mut wrong = foreign(&parts);
-    let mut lost = damaged;
     let mut gaps = Vec::new();
     if wrong.is_empty() {
         parts.retain(|(path, head)| {
@@ -211,7 +239,7 @@ fn sorted(
     }
     if parts.is_empty() {
         lost.push("no part is left to be merged".to_owned());
-        return Err(Failure::could_not(lost.join("\n  ")));
+        return Err(Found::failure(is_misnamed, &lost));
     }
     lost.extend(missing);
     if !args.allow_missing && !lost.is_empty() {
@@ -219,7 +247,7 @@ fn sorted(
             Gaps::Around => "parts that become one must lie together: add what is missing between them".to_owned(),
             _ => "render what is missing, or leave it out of the picture by --allow-missing".to_owned(),
         });
-        return Err(Failure::could_not(lost.join("\n  ")));
+        return Err(Found::failure(is_misnamed, &lost));
     }
     lost.iter().for_each(|line| shell.say(&format!("warning: {line}")));
     Ok(Sorted { parts, gaps })

@@ -29,8 +29,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
     let path = place.named().to_owned();
     let written = || std::iter::once(("-o", path.as_path()));
     spare_parts(args, written())?;
-    let (parts, damaged) = read(&args.parts)?;
-    let Sorted { parts, .. } = sorted(parts, damaged, args, Gaps::Around, shell)?;
+    let Sorted { parts, .. } = sorted(read(&args.parts)?, args, Gaps::Around, shell)?;
     let heads: Vec<FilmHead> = parts.iter().map(|(_, head)| head.clone()).collect();
     check_film(&heads[0])?;
     spare_scene(args, written(), &heads)?;

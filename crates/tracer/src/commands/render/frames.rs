@@ -7,6 +7,7 @@ use crate::checkpoint::Hashes;
 use crate::failure::{Failure, exit};
 use crate::loading::{is_dash, load};
 use crate::shell::{Shell, counted};
+use crate::write::{OutputKind, spare_other};
 use crate::{frames, interrupt};
 use scene_format::SceneDesc;
 use scene_format::diagnostic::Source;
@@ -297,7 +298,8 @@ pub fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(
     Ok((first, last, desc))
 }
 
-/// Sees that no file of any frame would replace one that the scene names, before the first is rendered.
+/// Sees that no file of any frame would replace one that the scene names, or one of another kind, before the first is
+/// rendered.
 ///
 /// # Errors
 /// The first that would.
@@ -307,7 +309,17 @@ fn spare_inputs(args: &RenderArgs, frames: RangeInclusive<u32>, desc: &SceneDesc
         let numbered = move |path: &Path| Some(PathBuf::from(with_number(path.to_str()?, frame)?));
         outputs::written(&named).filter_map(move |(option, path)| Some((option, numbered(path)?)))
     });
-    outputs::spare_mentioned(&written.collect::<Vec<_>>(), desc)
+    let written = written.collect::<Vec<_>>();
+    outputs::spare_mentioned(&written, desc)?;
+    // What is there may belong to a frame that is left out.
+    for (option, path) in written.iter().filter(|_| !args.skip_existing) {
+        match *option {
+            "-o" if args.part.is_none() => spare_other(path, OutputKind::Picture)?,
+            "--report" => spare_other(path, OutputKind::Report)?,
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// What is left of a frame that was interrupted: its checkpoint. A picture would be taken for a whole one.

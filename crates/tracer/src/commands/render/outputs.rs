@@ -3,13 +3,13 @@
 use super::place;
 use crate::args::RenderArgs;
 use crate::failure::Failure;
-use crate::loading::is_dash;
+use crate::loading::{expect_there, is_dash};
 use crate::report::FileReport;
 use crate::shell::Shell;
 use crate::write::{Bits, Encoding, OutputKind, Place, is_one_file, spare_other};
 use scene_format::SceneDesc;
 use std::collections::HashSet;
-use std::io::{IsTerminal, Read};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use tracer_core::Mattes;
 
@@ -50,26 +50,16 @@ pub(super) fn named(args: &RenderArgs) -> Result<RenderArgs, Failure> {
     if is_dash(scene) {
         return Err(Failure::wrong("a scene from standard input has no name to make the picture's of; name it by -o"));
     }
+    // That there is no folder to write to would be said of a scene that is not there.
+    expect_there(scene)?;
     // Otherwise the option would be said to go with names that nobody has written.
     let kind = args.format.take().unwrap_or_else(|| "png".to_owned());
     let picture = scene.with_extension(&kind);
-    if Encoding::from_path(&picture, Bits::default()).is_ok()
-        && picture.try_exists().unwrap_or(true)
-        && !is_picture(&picture)
-    {
-        let shown = picture.display();
-        return Err(Failure::wrong(format!("{shown} is there already and is no picture; name another file by -o")));
+    if Encoding::from_path(&picture, Bits::default()).is_ok() {
+        spare_other(&picture, OutputKind::Picture).map_err(|error| Failure::wrong(format!("{error} by -o")))?;
     }
     args.output.push(picture);
     Ok(args)
-}
-
-/// Whether a file begins as pictures do that are written here, or is empty.
-fn is_picture(path: &Path) -> bool {
-    const HEADS: [&[u8]; 5] = [b"\x89PNG", b"\x76\x2f\x31\x01", b"#?", b"PF", b"Pf"];
-    let mut head = Vec::new();
-    let read = std::fs::File::open(path).and_then(|file| std::io::Read::take(file, 8).read_to_end(&mut head));
-    read.is_ok() && (head.is_empty() || HEADS.iter().any(|known| head.starts_with(known)))
 }
 
 /// The pictures that the command line asks for.
@@ -274,18 +264,9 @@ fn is_same(a: &Place, b: &Place) -> bool {
 fn encoding(path: &Path, args: &RenderArgs, bits: Bits) -> Result<Encoding, Failure> {
     let kinds = Encoding::NAMES.join(", ");
     if path.extension().is_none() {
-        let Some(format) = &args.format else {
-            let shown = path.display();
-            return Err(Failure::wrong(if is_dash(path) {
-                format!("-o - needs --format, one of {kinds}")
-            } else if path.is_dir() {
-                let picture =
-                    path.join(args.scene.scene.file_stem().unwrap_or("picture".as_ref())).with_extension("png");
-                format!("-o {shown} is a folder; name the picture in it: -o {}", picture.display())
-            } else {
-                format!("-o {shown} has no extension; name it {shown}.png (or exr, hdr, pfm), or give --format")
-            }));
-        };
+        // What goes to another program is a PNG as a picture without a name is.
+        let format = args.format.as_deref().or(is_dash(path).then_some("png"));
+        let Some(format) = format else { return Err(Failure::wrong(without_extension(path, args))) };
         if is_dash(path) && std::io::stdout().is_terminal() {
             return Err(Failure::wrong(
                 "a picture does not go to a terminal; send standard output into a file or a pipe",
@@ -299,6 +280,29 @@ fn encoding(path: &Path, args: &RenderArgs, bits: Bits) -> Result<Encoding, Fail
         let shown = path.display();
         Failure::wrong(format!("-o {shown}: `.{extension}` is no kind of picture; expected one of {kinds}"))
     })
+}
+
+/// What is wrong with the name of a picture that has no extension, where nothing else says the kind.
+fn without_extension(path: &Path, args: &RenderArgs) -> String {
+    let shown = path.display();
+    let within = |folder: &Path, kind: &str| {
+        let mut name = args.scene.scene.file_stem().unwrap_or("picture".as_ref()).to_owned();
+        name.push(format!(".{kind}"));
+        folder.join(name).display().to_string()
+    };
+    // A kind alone, as in `shots/.png`: the name before it was empty.
+    let kind = path.file_name().and_then(|name| name.to_str()?.strip_prefix('.'));
+    let kind = kind.filter(|kind| Encoding::from_name(kind, Bits::default()).is_ok());
+    if let Some(kind) = kind {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        format!("-o {shown} has no name before its extension; name it -o {}", within(folder, kind))
+    } else if path.is_dir() {
+        format!("-o {shown} is a folder; name the picture in it: -o {}", within(path, "png"))
+    } else if shown.to_string().ends_with(std::path::is_separator) {
+        format!("there is no folder {shown}; make it, and name the picture in it: -o {}", within(path, "png"))
+    } else {
+        format!("-o {shown} has no extension; name it {shown}.png (or exr, hdr, pfm), or give --format")
+    }
 }
 
 /// Finds out whether everything can be written, while nothing has been spent yet.
