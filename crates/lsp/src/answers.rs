@@ -32,8 +32,8 @@ pub enum Why {
     Refused(String),
 }
 
-/// The answer to a request; `None` where nobody knows it.
-pub fn answer(documents: &Documents, method: &str, params: Value) -> Option<Result<Value, Why>> {
+/// The answer to a request, as JSON; `None` where nobody knows it.
+pub fn answer(documents: &Documents, method: &str, params: Value) -> Option<Result<String, Why>> {
     Some(match method {
         Completion::METHOD => asked(params, |params| completion(documents, params)),
         HoverRequest::METHOD => asked(params, |params| hover(documents, params)),
@@ -42,14 +42,14 @@ pub fn answer(documents: &Documents, method: &str, params: Value) -> Option<Resu
         DocumentHighlightRequest::METHOD => asked(params, |params| highlights(documents, params)),
         PrepareRenameRequest::METHOD => asked(params, |params| prepare_rename(documents, params)),
         Rename::METHOD => {
-            parsed(params).and_then(|params| rename(documents, params).map_err(Why::Refused)).and_then(value)
+            parsed(params).and_then(|params| rename(documents, params).map_err(Why::Refused)).and_then(text)
         }
         DocumentSymbolRequest::METHOD => asked(params, |params| symbols(documents, params)),
         DocumentColor::METHOD => asked(params, |params| colors(documents, params)),
         ColorPresentationRequest::METHOD => asked(params, |params| presentations(documents, params)),
         CodeActionRequest::METHOD => asked(params, |params| actions(documents, params)),
         Formatting::METHOD => {
-            parsed(params).and_then(|params| formatting(documents, params).map_err(Why::Refused)).and_then(value)
+            parsed(params).and_then(|params| formatting(documents, params).map_err(Why::Refused)).and_then(text)
         }
         _ => return None,
     })
@@ -59,16 +59,16 @@ fn parsed<P: DeserializeOwned>(params: Value) -> Result<P, Why> {
     serde_json::from_value(params).map_err(|error| Why::Params(error.to_string()))
 }
 
-fn value(answer: impl serde::Serialize) -> Result<Value, Why> {
-    serde_json::to_value(answer).map_err(|error| Why::Params(error.to_string()))
+fn text(answer: impl serde::Serialize) -> Result<String, Why> {
+    serde_json::to_string(&answer).map_err(|error| Why::Params(error.to_string()))
 }
 
 /// An answer that may be nothing, which the protocol writes as null.
 fn asked<P: DeserializeOwned, A: serde::Serialize>(
     params: Value,
     answer: impl FnOnce(P) -> Option<A>,
-) -> Result<Value, Why> {
-    value(answer(parsed(params)?))
+) -> Result<String, Why> {
+    text(answer(parsed(params)?))
 }
 
 /// The scene at a place, and the place's byte.
@@ -168,14 +168,14 @@ fn hover(documents: &Documents, params: HoverParams) -> Option<Hover> {
 
 fn definition(documents: &Documents, params: GotoDefinitionParams) -> Option<GotoDefinitionResponse> {
     let (document, byte) = at(documents, &params.text_document_position_params)?;
-    if let Some((_, name)) = analysis::file_at(&document.text, document.syntax, byte) {
-        // The beginning of a file that is there.
-        let path = document.path.is_some().then(|| document.folder().join(name)).filter(|path| path.is_file())?;
-        return Some(GotoDefinitionResponse::Scalar(Location { uri: uri_of(&path)?, range: Range::default() }));
+    if let Some(found) = analysis::definition(&document.text, document.syntax, byte) {
+        let range = document.lines.range(&document.text, found);
+        return Some(GotoDefinitionResponse::Scalar(Location { uri: document.uri.clone(), range }));
     }
-    let found = analysis::definition(&document.text, document.syntax, byte)?;
-    let range = document.lines.range(&document.text, found);
-    Some(GotoDefinitionResponse::Scalar(Location { uri: document.uri.clone(), range }))
+    let (_, name) = analysis::file_at(&document.text, document.syntax, byte)?;
+    // The beginning of a file that is there.
+    let path = document.path.is_some().then(|| document.folder().join(name)).filter(|path| path.is_file())?;
+    Some(GotoDefinitionResponse::Scalar(Location { uri: uri_of(&path)?, range: Range::default() }))
 }
 
 fn occurrences(document: &Document, byte: usize) -> Vec<Range> {
@@ -277,11 +277,13 @@ fn presentations(documents: &Documents, params: ColorPresentationParams) -> Opti
 fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeActionOrCommand>> {
     let document = documents.scene(&params.text_document.uri)?;
     let overlaps = |range: &Range| range.start <= params.range.end && params.range.start <= range.end;
+    let mut tried = diagnostics::Tried::of(document);
     let mut actions = Vec::new();
-    for fault in diagnostics::found(document) {
-        let Some(edit) = fault.edit.as_ref().filter(|edit| edit.span.source == 0) else { continue };
+    // What is marked is what was told.
+    for fault in document.faults.iter() {
+        let Some(mends) = fault.edit.as_ref().filter(|edit| edit.span.source == 0) else { continue };
         let range = diagnostics::range(document, fault.span);
-        let edit = diagnostics::edit(document, edit);
+        let edit = diagnostics::edit(document, mends);
         if !overlaps(&range) && !overlaps(&edit.range) {
             continue;
         }
@@ -292,9 +294,9 @@ fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeAc
         actions.push(CodeActionOrCommand::CodeAction(CodeAction {
             title,
             kind: Some(CodeActionKind::QUICKFIX),
-            diagnostics: Some(diagnostics::translated(document, std::slice::from_ref(&fault))),
+            diagnostics: Some(diagnostics::translated(document, std::slice::from_ref(fault))),
             edit: Some(in_document(document, vec![edit])),
-            is_preferred: Some(true),
+            is_preferred: tried.is_better(mends).then_some(true),
             ..CodeAction::default()
         }));
     }

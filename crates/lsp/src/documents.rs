@@ -3,7 +3,7 @@
 use crate::kin;
 use crate::positions::{Encoding, Lines};
 use lsp_types::Uri;
-use scene_format::Syntax;
+use scene_format::{Diagnostic, Syntax};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -25,6 +25,8 @@ pub struct Document {
     pub path: Option<PathBuf>,
     /// Its lines.
     pub lines: Lines,
+    /// What was told to be wrong with it, by itself.
+    pub faults: Arc<[Diagnostic]>,
 }
 
 impl Document {
@@ -60,7 +62,8 @@ impl Documents {
         let is_scene = kin::is_scene(&text, syntax);
         let lines = Lines::new(&text, self.encoding);
         let key = uri.as_str().to_owned();
-        self.open.insert(key, Document { uri, version, text: text.into(), syntax, is_scene, path, lines });
+        let faults = Arc::default();
+        self.open.insert(key, Document { uri, version, text: text.into(), syntax, is_scene, path, lines, faults });
     }
 
     /// It is open no more.
@@ -71,6 +74,11 @@ impl Documents {
     /// A text that is open.
     pub fn get(&self, uri: &Uri) -> Option<&Document> {
         self.open.get(uri.as_str())
+    }
+
+    /// A text that is open, to be changed.
+    pub fn get_mut(&mut self, uri: &Uri) -> Option<&mut Document> {
+        self.open.get_mut(uri.as_str())
     }
 
     /// A scene that is open.

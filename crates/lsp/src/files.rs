@@ -3,7 +3,7 @@
 
 use crate::diagnostics;
 use crate::documents::Document;
-use lsp_server::{Message, Notification};
+use crate::voice::Voice;
 use lsp_types::notification::{Notification as _, PublishDiagnostics};
 use lsp_types::{PublishDiagnosticsParams, Uri};
 use std::collections::HashMap;
@@ -20,13 +20,12 @@ pub struct Looker {
 }
 
 impl Looker {
-    /// Starts it; what it finds goes to `editor`, which says whether anybody is there. It ends when nobody can ask any
-    /// more.
-    pub fn start(editor: impl Fn(Message) -> bool + Send + 'static) -> Self {
+    /// Starts it; it tells the editor what it finds. It ends when nobody can ask any more.
+    pub fn start(voice: Voice) -> Self {
         let (documents, received) = channel();
         let newest = Versions::default();
         let versions = Arc::clone(&newest);
-        std::thread::spawn(move || look(&received, &versions, &editor));
+        std::thread::spawn(move || look(&received, &versions, &voice));
         Looker { documents, newest }
     }
 
@@ -50,7 +49,7 @@ fn lock(versions: &Versions) -> MutexGuard<'_, HashMap<String, i32>> {
     versions.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn look(received: &Receiver<Document>, newest: &Versions, editor: &impl Fn(Message) -> bool) {
+fn look(received: &Receiver<Document>, newest: &Versions, voice: &Voice) {
     while let Ok(document) = received.recv() {
         let is_newest = || lock(newest).get(document.uri.as_str()) == Some(&document.version);
         if !is_newest() {
@@ -62,8 +61,7 @@ fn look(received: &Receiver<Document>, newest: &Versions, editor: &impl Fn(Messa
             diagnostics: diagnostics::translated(&document, &found),
             version: Some(document.version),
         };
-        let notification = Notification::new(PublishDiagnostics::METHOD.to_owned(), params);
-        if is_newest() && !editor(Message::Notification(notification)) {
+        if is_newest() && voice.tell(PublishDiagnostics::METHOD, &params).is_err() {
             return;
         }
     }

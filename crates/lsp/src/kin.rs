@@ -1,7 +1,7 @@
 //! Which texts are scenes: editors tell of every file of TOML and JSON, and most of them are of other programs.
 
 use scene_format::Syntax;
-use scene_format::analysis::symbols;
+use scene_format::analysis::words_at_top;
 
 /// Words at the top of scenes that hardly any other file has there.
 const OWN: [&str; 8] = ["camera", "cameras", "effects", "lights", "materials", "objects", "render", "textures"];
@@ -27,8 +27,8 @@ pub fn may_become_scene(text: &str, syntax: Syntax, byte: usize) -> bool {
 
 /// How many of the words of scenes it has at the top; those of scenes alone count twice.
 fn weight(text: &str, syntax: Syntax) -> usize {
-    let words = symbols(text, syntax);
-    let of = |names: &[&str]| words.iter().filter(|word| names.contains(&word.name.as_str())).count();
+    let words = words_at_top(text, syntax);
+    let of = |names: &[&str]| words.iter().filter(|word| names.contains(&word.as_str())).count();
     2 * of(&OWN) + of(&SHARED)
 }
 

@@ -13,15 +13,18 @@ mod files;
 mod kin;
 mod positions;
 mod stdio;
+#[cfg(test)]
+mod times;
+mod voice;
 
 use answers::Why;
 use documents::Documents;
-use lsp_server::{Connection, ErrorCode, Message, Notification, Request, Response};
+use lsp_server::{Connection, ErrorCode, Message, Notification, Request};
 use lsp_types::notification::{
-    DidChangeTextDocument, DidCloseTextDocument, DidOpenTextDocument, DidSaveTextDocument, Exit, Notification as _,
-    PublishDiagnostics,
+    DidChangeTextDocument, DidCloseTextDocument, DidOpenTextDocument, DidSaveTextDocument, Exit, Initialized,
+    Notification as _, PublishDiagnostics,
 };
-use lsp_types::request::{Request as _, Shutdown};
+use lsp_types::request::{Initialize, Request as _, Shutdown};
 use lsp_types::{
     CodeActionKind, CodeActionOptions, CodeActionProviderCapability, ColorProviderCapability, CompletionOptions,
     DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, DidSaveTextDocumentParams,
@@ -30,7 +33,8 @@ use lsp_types::{
     TextDocumentSyncSaveOptions, Uri, WorkDoneProgressOptions,
 };
 use positions::Encoding;
-use serde_json::json;
+use serde_json::{Value, json};
+use voice::Voice;
 
 /// Any error of the connection.
 type Error = Box<dyn std::error::Error + Send + Sync>;
@@ -40,8 +44,8 @@ type Error = Box<dyn std::error::Error + Send + Sync>;
 /// # Errors
 /// The connection broke, or the other side does not speak the protocol.
 pub fn serve_stdio() -> Result<(), Error> {
-    let (connection, threads) = stdio::connection();
-    let served = serve(&connection);
+    let (connection, voice, threads) = stdio::connection();
+    let served = converse(&connection, voice);
     // The writing thread ends when nobody can write any more. What was answered is written, whatever ended it.
     drop(connection);
     threads.join(served.is_ok())?;
@@ -53,52 +57,76 @@ pub fn serve_stdio() -> Result<(), Error> {
 /// # Errors
 /// As [`serve_stdio`].
 pub fn serve(connection: &Connection) -> Result<(), Error> {
-    let (id, params) = match connection.initialize_start() {
-        Ok(started) => started,
-        // Nobody was there.
-        Err(error) if error.channel_is_disconnected() => return Ok(()),
-        Err(error) => return Err(error.into()),
-    };
-    let params: InitializeParams = match serde_json::from_value(params) {
-        Ok(params) => params,
-        Err(why) => {
-            connection.sender.send(Response::new_err(id, ErrorCode::InvalidParams as i32, why.to_string()).into())?;
-            return Err(why.into());
-        }
-    };
-    let offered = params.capabilities.general.and_then(|general| general.position_encodings).unwrap_or_default();
-    let encoding = if offered.contains(&PositionEncodingKind::UTF8) { Encoding::Utf8 } else { Encoding::Utf16 };
-    let server = json!({ "name": "tracer", "version": env!("CARGO_PKG_VERSION") });
-    connection.initialize_finish(id, json!({ "capabilities": capabilities(encoding), "serverInfo": server }))?;
-    let mut documents = Documents::new(encoding);
     let sender = connection.sender.clone();
-    let looker = files::Looker::start(move |message| sender.send(message).is_ok());
+    converse(connection, Voice::of_values(move |message| Ok(sender.send(message)?)))
+}
+
+/// Hears what comes over a connection until the editor says goodbye, and answers by a voice.
+fn converse(connection: &Connection, voice: Voice) -> Result<(), Error> {
+    let Some(encoding) = greeted(connection, &voice)? else { return Ok(()) };
+    let mut documents = Documents::new(encoding);
+    let looker = files::Looker::start(voice.clone());
     for message in &connection.receiver {
         match message {
             Message::Request(request) => {
                 if request.method == Shutdown::METHOD {
-                    connection.sender.send(Response::new_ok(request.id, ()).into())?;
-                    return until_exit(connection);
+                    voice.answer(&request.id, "null")?;
+                    return until_exit(connection, &voice);
                 }
-                connection.sender.send(Message::Response(answer(&documents, request)))?;
+                answer(&voice, &documents, request)?;
             }
             Message::Notification(notification) if notification.method == Exit::METHOD => {
                 return Err("it ends without a shutdown".into());
             }
-            Message::Notification(notification) => heard(connection, &mut documents, &looker, notification)?,
+            Message::Notification(notification) => heard(&voice, &mut documents, &looker, notification)?,
             Message::Response(_) => {}
         }
     }
     Ok(())
 }
 
+/// Says what the server can do, and hears what columns count; `None` where nobody was there.
+fn greeted(connection: &Connection, voice: &Voice) -> Result<Option<Encoding>, Error> {
+    let (id, params) = loop {
+        match connection.receiver.recv() {
+            Ok(Message::Request(Request { id, method, params })) if method == Initialize::METHOD => break (id, params),
+            Ok(Message::Request(Request { id, method, .. })) => {
+                let why = format!("expected initialize first, got {method}");
+                voice.refuse(&id, ErrorCode::ServerNotInitialized as i32, why)?;
+            }
+            Ok(Message::Notification(told)) if told.method == Exit::METHOD => {
+                return Err("it ends without a beginning".into());
+            }
+            Ok(Message::Notification(_)) => {}
+            Ok(Message::Response(_)) => return Err("expected initialize first, got an answer".into()),
+            Err(_) => return Ok(None),
+        }
+    };
+    let params: InitializeParams = match serde_json::from_value(params) {
+        Ok(params) => params,
+        Err(why) => {
+            voice.refuse(&id, ErrorCode::InvalidParams as i32, why.to_string())?;
+            return Err(why.into());
+        }
+    };
+    let offered = params.capabilities.general.and_then(|general| general.position_encodings).unwrap_or_default();
+    let encoding = if offered.contains(&PositionEncodingKind::UTF8) { Encoding::Utf8 } else { Encoding::Utf16 };
+    let server = json!({ "name": "tracer", "version": env!("CARGO_PKG_VERSION") });
+    let result: Value = json!({ "capabilities": capabilities(encoding), "serverInfo": server });
+    voice.answer(&id, &result.to_string())?;
+    match connection.receiver.recv() {
+        Ok(Message::Notification(told)) if told.method == Initialized::METHOD => Ok(Some(encoding)),
+        Ok(_) => Err("expected initialized after initialize, got something else".into()),
+        Err(_) => Err("the editor has gone before it was initialized".into()),
+    }
+}
+
 /// After `shutdown` nothing is done any more, and `exit` ends it.
-fn until_exit(connection: &Connection) -> Result<(), Error> {
+fn until_exit(connection: &Connection, voice: &Voice) -> Result<(), Error> {
     for message in &connection.receiver {
         match message {
             Message::Request(Request { id, .. }) => {
-                let why = "the server is shut down".to_owned();
-                connection.sender.send(Response::new_err(id, ErrorCode::InvalidRequest as i32, why).into())?;
+                voice.refuse(&id, ErrorCode::InvalidRequest as i32, "the server is shut down".to_owned())?;
             }
             Message::Notification(told) if told.method == Exit::METHOD => break,
             Message::Notification(_) | Message::Response(_) => {}
@@ -143,19 +171,19 @@ fn capabilities(encoding: Encoding) -> ServerCapabilities {
 }
 
 /// Answers a request. What nobody understands gets an error and ends nothing.
-fn answer(documents: &Documents, request: Request) -> Response {
+fn answer(voice: &Voice, documents: &Documents, request: Request) -> Result<(), Error> {
     let Request { id, method, params } = request;
     match answers::answer(documents, &method, params) {
-        Some(Ok(value)) => Response::new_ok(id, value),
-        Some(Err(Why::Params(why))) => Response::new_err(id, ErrorCode::InvalidParams as i32, why),
-        Some(Err(Why::Refused(why))) => Response::new_err(id, ErrorCode::RequestFailed as i32, why),
-        None => Response::new_err(id, ErrorCode::MethodNotFound as i32, format!("{method} is not known here")),
+        Some(Ok(result)) => voice.answer(&id, &result),
+        Some(Err(Why::Params(why))) => voice.refuse(&id, ErrorCode::InvalidParams as i32, why),
+        Some(Err(Why::Refused(why))) => voice.refuse(&id, ErrorCode::RequestFailed as i32, why),
+        None => voice.refuse(&id, ErrorCode::MethodNotFound as i32, format!("{method} is not known here")),
     }
 }
 
 /// Takes what the editor tells.
 fn heard(
-    connection: &Connection,
+    voice: &Voice,
     documents: &mut Documents,
     looker: &files::Looker,
     notification: Notification,
@@ -166,7 +194,7 @@ fn heard(
             let Ok(params) = serde_json::from_value::<DidOpenTextDocumentParams>(params) else { return Ok(()) };
             let document = params.text_document;
             documents.put(document.uri.clone(), document.version, document.text);
-            tell(connection, documents, looker, &document.uri, true)?;
+            tell(voice, documents, looker, &document.uri, true)?;
         }
         DidChangeTextDocument::METHOD => {
             let Ok(params) = serde_json::from_value::<DidChangeTextDocumentParams>(params) else { return Ok(()) };
@@ -174,18 +202,18 @@ fn heard(
                 return Ok(());
             };
             documents.put(params.text_document.uri.clone(), params.text_document.version, text);
-            tell(connection, documents, looker, &params.text_document.uri, false)?;
+            tell(voice, documents, looker, &params.text_document.uri, false)?;
         }
         DidSaveTextDocument::METHOD => {
             let Ok(params) = serde_json::from_value::<DidSaveTextDocumentParams>(params) else { return Ok(()) };
-            tell(connection, documents, looker, &params.text_document.uri, true)?;
+            tell(voice, documents, looker, &params.text_document.uri, true)?;
         }
         DidCloseTextDocument::METHOD => {
             let Ok(params) = serde_json::from_value::<DidCloseTextDocumentParams>(params) else { return Ok(()) };
             let uri = params.text_document.uri;
             documents.remove(&uri);
             looker.changed(&uri, None);
-            publish(connection, PublishDiagnosticsParams { uri, diagnostics: Vec::new(), version: None })?;
+            publish(voice, &PublishDiagnosticsParams { uri, diagnostics: Vec::new(), version: None })?;
         }
         _ => {}
     }
@@ -193,26 +221,19 @@ fn heard(
 }
 
 /// Tells what is wrong with a document; `files`: what it names is looked at, too, and told when that is done.
-fn tell(
-    connection: &Connection,
-    documents: &Documents,
-    looker: &files::Looker,
-    uri: &Uri,
-    files: bool,
-) -> Result<(), Error> {
-    let Some(document) = documents.get(uri) else { return Ok(()) };
+fn tell(voice: &Voice, documents: &mut Documents, looker: &files::Looker, uri: &Uri, files: bool) -> Result<(), Error> {
+    let Some(document) = documents.get_mut(uri) else { return Ok(()) };
     looker.changed(uri, Some(document.version));
-    let diagnostics = diagnostics::of(document);
+    document.faults = diagnostics::found(document).into();
+    let diagnostics = diagnostics::translated(document, &document.faults);
     let version = Some(document.version);
-    publish(connection, PublishDiagnosticsParams { uri: uri.clone(), diagnostics, version })?;
+    publish(voice, &PublishDiagnosticsParams { uri: uri.clone(), diagnostics, version })?;
     if files && document.is_scene {
         looker.look(document.clone());
     }
     Ok(())
 }
 
-fn publish(connection: &Connection, params: PublishDiagnosticsParams) -> Result<(), Error> {
-    let notification = Notification::new(PublishDiagnostics::METHOD.to_owned(), params);
-    connection.sender.send(Message::Notification(notification))?;
-    Ok(())
+fn publish(voice: &Voice, params: &PublishDiagnosticsParams) -> Result<(), Error> {
+    voice.tell(PublishDiagnostics::METHOD, params)
 }

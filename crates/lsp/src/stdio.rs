@@ -2,9 +2,11 @@
 //! 2.0 has it (section 5.1), and what follows is read.
 
 use crate::Error;
+use crate::voice::Voice;
 use lsp_server::{Connection, ErrorCode, Message};
 use serde_json::{Value, json};
 use std::io::{self, BufRead, Read, Write};
+use std::sync::mpsc::channel;
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
@@ -34,10 +36,11 @@ impl Threads {
     }
 }
 
-/// The connection to who started the program.
-pub fn connection() -> (Connection, Threads) {
+/// The connection to who started the program: what it says is heard there, and it is answered by the voice.
+pub fn connection() -> (Connection, Voice, Threads) {
     let (server, editor) = Connection::memory();
-    let (to_server, from_server) = (editor.sender, editor.receiver);
+    let to_server = editor.sender;
+    let (say, said) = channel::<String>();
     let reader = thread::spawn(move || {
         let mut input = io::stdin().lock();
         while let Some(heard) = next(&mut input)? {
@@ -53,16 +56,16 @@ pub fn connection() -> (Connection, Threads) {
                         break;
                     }
                 }
-                Err(fault) => write(&mut io::stdout().lock(), &fault)?,
+                Err(fault) => write(&mut io::stdout().lock(), &fault.to_string())?,
             }
         }
         Ok(())
     });
     let writer = thread::spawn(move || {
         // The lock is taken for each message: the reader answers, too.
-        from_server.into_iter().try_for_each(|message: Message| message.write(&mut io::stdout().lock()))
+        said.into_iter().try_for_each(|body| write(&mut io::stdout().lock(), &body))
     });
-    (server, Threads { reader, writer })
+    (server, Voice::new(move |body| Ok(say.send(body)?)), Threads { reader, writer })
 }
 
 /// The next message, or what is answered to something that is none; `None` at the end.
@@ -116,8 +119,7 @@ fn fault(id: Value, code: ErrorCode, message: &str) -> Value {
     json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": message } })
 }
 
-fn write(output: &mut impl Write, value: &Value) -> io::Result<()> {
-    let body = value.to_string();
+fn write(output: &mut impl Write, body: &str) -> io::Result<()> {
     write!(output, "Content-Length: {}\r\n\r\n{body}", body.len())?;
     output.flush()
 }

@@ -257,6 +257,65 @@ fn files_are_gone_to_and_names_are_shown() {
     editor.close();
 }
 
+/// A value shows what its field takes.
+#[test]
+fn values_show_what_they_may_be() {
+    let text = "[camera]\nfov = 35\n\n[[objects]]\nSphere = { center = [0, 1.5, 0], radius = 1 }\n";
+    let mut editor = Editor::open("file:///scenes/a.toml", text);
+    let shown = editor.at("textDocument/hover", 1, 7);
+    let told = shown["contents"]["value"].as_str().expect("text");
+    assert!(told.starts_with("**fov**") && told.contains("degrees") && told.contains("default `"), "{told}");
+    let range = json!({ "start": { "line": 1, "character": 6 }, "end": { "line": 1, "character": 8 } });
+    assert_eq!(shown["range"], range);
+    let shown = editor.at("textDocument/hover", 4, 25);
+    assert!(shown["contents"]["value"].as_str().expect("text").starts_with("**center**"), "{shown}");
+    editor.close();
+}
+
+/// In a header of TOML names alone are written.
+#[test]
+fn headers_get_names_alone() {
+    let mut editor = Editor::open("file:///scenes/a.toml", "background = 1\n[[obj]]\n");
+    for (text, line, character, label) in [
+        ("background = 1\n[ren]\n", 1, 4, "render"),
+        ("background = 1\n[[li]]\n", 1, 4, "lights"),
+        ("background = 1\n[objects.]\n", 1, 9, "Sphere"),
+    ] {
+        editor.write(text);
+        let items = editor.at("textDocument/completion", line, character);
+        let items = items.as_array().expect("a list");
+        let item = items.iter().find(|item| item["label"] == label).unwrap_or_else(|| panic!("{label} in {text}"));
+        assert_eq!(item["textEdit"]["newText"], label);
+    }
+    editor.close();
+}
+
+/// Edits that mend a fault are preferred; those after which as much is wrong are offered, and no more.
+#[test]
+fn edits_that_mend_are_preferred() {
+    let sphere = |radius: &str| {
+        let sphere = format!("{{ \"Sphere\": {{ \"center\": [0, 0, 0], {radius} }} }}");
+        format!("{{ \"background\": 1, \"objects\": [{sphere}] }}")
+    };
+    let mut editor = Editor::open("file:///scenes/a.json", &sphere("\"radius\": 1"));
+    let preferred = |editor: &mut Editor, text: &str| -> Vec<Value> {
+        editor.write(text);
+        let (uri, told) = (editor.uri.clone(), editor.diagnostics());
+        let last = text.lines().count() as u32;
+        let range = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": last, "character": 0 } });
+        let params = json!({ "textDocument": { "uri": uri }, "range": range, "context": { "diagnostics": told } });
+        let actions = editor.ask("textDocument/codeAction", params);
+        actions.as_array().expect("a list").iter().map(|action| action["isPreferred"].clone()).collect()
+    };
+    assert_eq!(preferred(&mut editor, &sphere("\"radus\": 1")), [json!(true)]);
+    // A radius is not null, either.
+    assert_eq!(preferred(&mut editor, &sphere("\"radius\": undefined")), [Value::Null]);
+    // Of a long scene nobody says: it would take too long.
+    let long = format!("{}{}", sphere("\"radus\": 1"), " ".repeat(64 << 10));
+    assert_eq!(preferred(&mut editor, &long), [Value::Null]);
+    editor.close();
+}
+
 /// A scene with errors is not laid out, and the editor is told why.
 #[test]
 fn why_a_scene_is_not_laid_out_is_told() {

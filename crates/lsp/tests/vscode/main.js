@@ -220,9 +220,14 @@ async function times() {
       marked = resolve;
       client.tell("textDocument/didChange", { textDocument: { uri, version }, contentChanges: [{ text: edited }] });
     }));
-    await time("completion", () => client.ask("textDocument/completion", where));
-    await time("hover", () => client.ask("textDocument/hover", where));
-    await time("definition", () => client.ask("textDocument/definition", where));
+    const document = { textDocument: { uri } };
+    const name = { ...where, position: { line: 1900, character: edited.split("\n")[1900].indexOf("\"m") + 2 } };
+    const range = { start: { line: 1900, character: 0 }, end: { line: 1900, character: 40 } };
+    for (const [method, params] of [
+      ["completion", where], ["hover", where], ["definition", name], ["references", { ...name, context: { includeDeclaration: true } }],
+      ["documentHighlight", name], ["rename", { ...name, newName: "crimson" }], ["documentSymbol", document], ["documentColor", document],
+      ["codeAction", { ...document, range, context: { diagnostics: [] } }], ["formatting", { ...document, options: { tabSize: 4, insertSpaces: true } }],
+    ]) await time(method, () => client.ask(`textDocument/${method}`, params));
   }
   for (const [name, all] of Object.entries(spans)) {
     all.sort((a, b) => a - b);

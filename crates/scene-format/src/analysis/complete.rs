@@ -63,6 +63,10 @@ pub fn complete(text: &str, syntax: Syntax, byte: usize) -> Completions {
         return in_expression(text, syntax, byte, begun);
     }
     let Some(expected) = expected(&way, syntax) else { return out };
+    if way.in_header {
+        out.items = if way.quoted.is_some() { Vec::new() } else { in_header(expected, syntax) };
+        return out;
+    }
     match expected {
         Expected::Field(_) if way.quoted.is_some() && syntax != Syntax::Json => {}
         Expected::Field(def) if way.quoted.is_some() => {
@@ -92,6 +96,43 @@ pub fn complete(text: &str, syntax: Syntax, byte: usize) -> Completions {
         Expected::Value(kind, field) => value(text, syntax, kind, field, &way, &mut out),
     }
     out
+}
+
+/// Within a header of TOML: the names of what has tables, and nothing behind them.
+fn in_header(expected: Expected, syntax: Syntax) -> Vec<Completion> {
+    let mut items = Vec::new();
+    match expected {
+        Expected::Field(def) => {
+            // The items of a `Repeat` are what its list takes.
+            let is_items = |field: &FieldDef| def.name == REPEAT.name && field.name == "items";
+            let fields = def.fields.iter().filter(|field| has_tables(field.kind) || is_items(field));
+            items.extend(fields.map(|field| Completion { snippet: field.name.to_owned(), ..of_name(field, syntax) }));
+        }
+        Expected::KindAsKey(kind) => kinds(kind, &mut |def| {
+            let is_table = |content: &Content| match content {
+                Content::Unit => false,
+                Content::Value(field) => has_tables(field.kind),
+                Content::Struct(_) => true,
+            };
+            for variant in def.variants.iter().filter(|variant| is_table(&variant.content)) {
+                items.push(of_variant(variant.name, prose(variant.doc), variant.name.to_owned()));
+            }
+        }),
+        // A header has no values.
+        Expected::Value(..) => {}
+    }
+    items
+}
+
+/// Whether a value of this type may be a table, or a list of tables.
+fn has_tables(kind: Type) -> bool {
+    match kind.resolved() {
+        Type::Struct(_) | Type::Map(_) => true,
+        Type::Enum(def) => def.variants.iter().any(|variant| !matches!(variant.content, Content::Unit)),
+        Type::List(inner) | Type::Optional(inner) => has_tables(*inner),
+        Type::OneOf(kinds) => kinds.iter().any(|kind| has_tables(*kind)),
+        _ => false,
+    }
 }
 
 /// The proposal of a field's name.

@@ -6,6 +6,7 @@ use crate::expression;
 use crate::read::expected;
 use crate::schema::{Content, FieldDef, StructDef, prose};
 use crate::syntax::Syntax;
+use crate::tree::{Item, Kind, Tree};
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -18,11 +19,21 @@ pub struct Hover {
     pub markdown: String,
 }
 
-/// What the word at a byte means.
+/// What the word at a byte means; a value shows its field.
 pub fn hover(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
     let tree = tree(text, syntax);
     let mut found: Option<Hover> = None;
+    // The innermost field that has a value here.
+    let mut valued: Option<Hover> = None;
     visit(&tree, &mut |visit| {
+        if holds(visit.item.span(), byte) && (visit.field.is_some() || visit.name.is_some()) {
+            // What has a name that the scene gives is nobody's field.
+            let field = visit.field.filter(|_| visit.name.is_none());
+            valued = field.and_then(|(field, _)| {
+                let value = leaf(visit.item, byte)?;
+                Some(Hover { range: range(value.span()), markdown: of_field(field, syntax) })
+            });
+        }
         if let Some((field, key)) = visit.field
             && holds(key.span(), byte)
         {
@@ -38,16 +49,27 @@ pub fn hover(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
             found = Some(Hover { range: range(span), markdown });
         }
     });
-    found.or_else(|| of_name(text, syntax, byte))
+    found.or_else(|| of_name(&tree, text, byte)).or(valued)
+}
+
+/// The value without brackets that stands at a byte: a number of a vector, too, but not what has a name of its own.
+fn leaf<'t, 's>(item: Item<'t, 's>, byte: usize) -> Option<Item<'t, 's>> {
+    match item.kind() {
+        Kind::List | Kind::Tuple if item.name().is_none() => {
+            item.children().filter(|child| holds(child.span(), byte)).find_map(|child| leaf(child, byte))
+        }
+        Kind::List | Kind::Tuple | Kind::Struct | Kind::Map | Kind::Key | Kind::Broken => None,
+        _ => Some(item),
+    }
 }
 
 /// What a name stands for, or what a word of an expression means.
-fn of_name(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
-    if let Some(names::Named { name, range, value }) = names::named_at(text, syntax, byte) {
+fn of_name(tree: &Tree<'_>, text: &str, byte: usize) -> Option<Hover> {
+    if let Some(names::Named { name, range, value }) = names::named_at(tree, text, byte) {
         let means = value.map_or("counts from 0: the index of a `Repeat`".to_owned(), |value| format!("`{value}`"));
         return Some(Hover { range, markdown: format!("**{name}**: {means}") });
     }
-    let word = names::word_of_expression(text, syntax, byte)?;
+    let word = names::word_of_expression(tree, text, byte)?;
     let name = &text[word.clone()];
     let markdown = match expression::function(name) {
         Some((call, does)) => format!("**{call}**\n\n{does}"),

@@ -20,7 +20,7 @@ pub use colors::{ColorPlace, color_texts, colors};
 pub use complete::{Completion, CompletionKind, Completions, complete};
 pub use hover::{Hover, hover};
 pub use names::{definition, file_at, name_at, occurrences, rename};
-pub use symbols::{Symbol, SymbolKind, symbols};
+pub use symbols::{Symbol, SymbolKind, symbols, words_at_top};
 
 #[cfg(test)]
 mod tests;

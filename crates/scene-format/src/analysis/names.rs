@@ -8,11 +8,13 @@ use crate::expression::{is_known, is_name};
 use crate::read::is_expression;
 use crate::schema::Type;
 use crate::syntax::Syntax;
-use crate::tree::Kind;
+use crate::tree::{Item, Kind, Tree};
+use std::borrow::Cow;
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// What a name is of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Of {
     Material,
     Texture,
@@ -24,9 +26,9 @@ enum Of {
 
 /// A place where a name stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Place {
+struct Place<'s> {
     of: Of,
-    name: String,
+    name: Cow<'s, str>,
     /// The name without quotes.
     range: Range<usize>,
     /// Quotes stand around it, or an expression does.
@@ -36,14 +38,18 @@ struct Place {
 
 /// The name that stands at a byte: its letters.
 pub fn name_at(text: &str, syntax: Syntax, byte: usize) -> Option<Range<usize>> {
-    places(text, syntax).into_iter().find(|place| holds_byte(&place.range, byte)).map(|place| place.range)
+    places(&tree(text, syntax)).into_iter().find(|place| holds_byte(&place.range, byte)).map(|place| place.range)
 }
 
 /// Where the name at a byte is defined.
 pub fn definition(text: &str, syntax: Syntax, byte: usize) -> Option<Range<usize>> {
-    let places = places(text, syntax);
+    let places = places(&tree(text, syntax));
     let at = places.iter().find(|place| holds_byte(&place.range, byte))?;
-    let same = |place: &&Place| place.defines && place.of == at.of && place.name == at.name;
+    defined_of(&places, at)
+}
+
+fn defined_of(places: &[Place<'_>], at: &Place<'_>) -> Option<Range<usize>> {
+    let same = |place: &&Place<'_>| place.defines && place.of == at.of && place.name == at.name;
     // Of several the last before it: names within hide those around.
     let before = places.iter().filter(same).rfind(|place| place.range.start <= at.range.start);
     before.or_else(|| places.iter().find(same)).map(|place| place.range.clone())
@@ -51,7 +57,8 @@ pub fn definition(text: &str, syntax: Syntax, byte: usize) -> Option<Range<usize
 
 /// All places of the name at a byte.
 pub fn occurrences(text: &str, syntax: Syntax, byte: usize) -> Vec<Range<usize>> {
-    of_one_name(text, syntax, byte).into_iter().map(|place| place.range).collect()
+    let places = places(&tree(text, syntax));
+    of_one_name(&places, byte).map(|place| place.range.clone()).collect()
 }
 
 /// The edits that give the thing at a byte another name.
@@ -59,8 +66,8 @@ pub fn occurrences(text: &str, syntax: Syntax, byte: usize) -> Vec<Range<usize>>
 /// # Errors
 /// Why it cannot have that name, in a sentence.
 pub fn rename(text: &str, syntax: Syntax, byte: usize, name: &str) -> Result<Vec<Edit>, String> {
-    let found = of_one_name(text, syntax, byte);
-    let Some(first) = found.first() else { return Err("no name stands here".to_owned()) };
+    let places = places(&tree(text, syntax));
+    let Some(first) = of_one_name(&places, byte).next() else { return Err("no name stands here".to_owned()) };
     let of = first.of;
     if of == Of::Var && is_known(name) {
         return Err(format!("{name} means something in expressions"));
@@ -71,16 +78,16 @@ pub fn rename(text: &str, syntax: Syntax, byte: usize, name: &str) -> Result<Vec
     if name.is_empty() || name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {
         return Err("a name has at least one letter, no quotes and no backslash".to_owned());
     }
-    if places(text, syntax).iter().any(|place| place.of == of && place.name == name && place.name != first.name) {
+    if places.iter().any(|place| place.of == of && place.name == name && place.name != first.name) {
         return Err(format!("there is another {name:?} already"));
     }
     let is_bare = name.bytes().all(|byte| matches!(byte, b'_' | b'-') || byte.is_ascii_alphanumeric());
-    let edit = |place: Place| {
+    let edit = |place: &Place<'_>| {
         let written = if place.is_quoted || is_bare { name.to_owned() } else { format!("\"{name}\"") };
         let span = Span { source: 0, start: place.range.start as u32, end: place.range.end as u32 };
         Edit { span, replacement: written }
     };
-    Ok(found.into_iter().map(edit).collect())
+    Ok(of_one_name(&places, byte).map(edit).collect())
 }
 
 /// A name, where it is given or used.
@@ -95,16 +102,17 @@ pub(super) struct Named {
 const SHOWN: usize = 200;
 
 /// The name that stands at a byte, and what it stands for.
-pub(super) fn named_at(text: &str, syntax: Syntax, byte: usize) -> Option<Named> {
-    let place = places(text, syntax).into_iter().find(|place| holds_byte(&place.range, byte))?;
-    let defined = definition(text, syntax, byte)?;
+pub(super) fn named_at(tree: &Tree<'_>, text: &str, byte: usize) -> Option<Named> {
+    let places = places(tree);
+    let place = places.iter().find(|place| holds_byte(&place.range, byte))?;
+    let defined = defined_of(&places, place)?;
     // What is long, or has more lines than one, is written anew.
     let in_short = |lexeme: &str| {
         let lexeme: String = lexeme.chars().take(SHOWN).collect();
         lexeme.split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let mut value = None;
-    visit(&tree(text, syntax), &mut |visit| {
+    visit(tree, &mut |visit| {
         if visit.name.is_some_and(|key| holds_byte(&range(key.span()), defined.start)) {
             value = Some(in_short(visit.item.lexeme()));
         }
@@ -115,7 +123,7 @@ pub(super) fn named_at(text: &str, syntax: Syntax, byte: usize) -> Option<Named>
         let begin = text[..defined.start].rfind('\n').map_or(0, |at| at + 1);
         value = text[begin..].lines().next().map(in_short);
     }
-    Some(Named { name: place.name, range: place.range, value })
+    Some(Named { name: place.name.to_string(), range: place.range.clone(), value })
 }
 
 /// The file that a text at a byte names, as it is written.
@@ -131,9 +139,9 @@ pub fn file_at(text: &str, syntax: Syntax, byte: usize) -> Option<(Range<usize>,
 }
 
 /// The word of an expression that stands at a byte.
-pub(super) fn word_of_expression(text: &str, syntax: Syntax, byte: usize) -> Option<Range<usize>> {
+pub(super) fn word_of_expression(tree: &Tree<'_>, text: &str, byte: usize) -> Option<Range<usize>> {
     let mut found = None;
-    visit(&tree(text, syntax), &mut |visit| {
+    visit(tree, &mut |visit| {
         let whole = range(visit.item.span());
         if visit.item.kind() == Kind::Text && is_expression(visit.item) && whole.contains(&byte) {
             let is_word = |c: char| c == '_' || c.is_ascii_alphanumeric();
@@ -159,8 +167,8 @@ pub(super) struct Defined {
 
 /// The names that a scene gives.
 pub(super) fn defined(text: &str, syntax: Syntax) -> Defined {
-    let mut defined = Defined::default();
-    for place in places(text, syntax).into_iter().filter(|place| place.defines) {
+    let (mut defined, mut seen) = (Defined::default(), HashSet::new());
+    for place in places(&tree(text, syntax)).into_iter().filter(|place| place.defines) {
         let list = match place.of {
             Of::Material => &mut defined.materials,
             Of::Texture => &mut defined.textures,
@@ -168,8 +176,9 @@ pub(super) fn defined(text: &str, syntax: Syntax) -> Defined {
             Of::Thing => &mut defined.things,
             Of::Var => &mut defined.vars,
         };
-        if !list.contains(&place.name) {
-            list.push(place.name);
+        // A thousand objects may have a name each.
+        if seen.insert((place.of, place.name.clone())) {
+            list.push(place.name.into_owned());
         }
     }
     defined
@@ -179,18 +188,16 @@ fn holds_byte(range: &Range<usize>, byte: usize) -> bool {
     (range.start..=range.end).contains(&byte)
 }
 
-fn of_one_name(text: &str, syntax: Syntax, byte: usize) -> Vec<Place> {
-    let places = places(text, syntax);
-    let Some(at) = places.iter().find(|place| holds_byte(&place.range, byte)).cloned() else { return Vec::new() };
-    places.into_iter().filter(|place| place.of == at.of && place.name == at.name).collect()
+/// The places of the name at a byte.
+fn of_one_name<'p, 's>(places: &'p [Place<'s>], byte: usize) -> impl Iterator<Item = &'p Place<'s>> {
+    let at = places.iter().find(|place| holds_byte(&place.range, byte));
+    places.iter().filter(move |place| at.is_some_and(|at| place.of == at.of && place.name == at.name))
 }
 
 /// All places of names, in order.
-fn places(text: &str, syntax: Syntax) -> Vec<Place> {
-    let tree = tree(text, syntax);
+fn places<'s>(tree: &Tree<'s>) -> Vec<Place<'s>> {
     let mut found = Vec::new();
-    visit(&tree, &mut |visit| {
-        let field = visit.field.map(|(field, _)| field.name);
+    visit(tree, &mut |visit| {
         if let Some(key) = visit.name {
             let of = match (visit.section, visit.kind) {
                 ("materials", _) => Some(Of::Material),
@@ -199,43 +206,35 @@ fn places(text: &str, syntax: Syntax) -> Vec<Place> {
                 (_, Type::Value) => Some(Of::Var),
                 _ => None,
             };
-            if let Some(of) = of {
-                found.push(of_text(of, key.lexeme(), key.span(), true, key.text().into_owned()));
-            }
+            found.extend(of.map(|of| of_text(of, key, true)));
         }
         if visit.item.kind() != Kind::Text {
             return;
         }
         if is_expression(visit.item) {
             in_expression(visit.item.lexeme(), visit.item.span().start as usize, &mut found);
-        } else if field == Some("material") && matches!(visit.kind, Type::Text) {
-            let item = visit.item;
-            found.push(of_text(Of::Material, item.lexeme(), item.span(), false, item.text().into_owned()));
-        } else if is_texture(visit) {
-            let item = visit.item;
-            found.push(of_text(Of::Texture, item.lexeme(), item.span(), false, item.text().into_owned()));
-        } else if field == Some("camera") && matches!(visit.kind, Type::Text) {
-            let item = visit.item;
-            found.push(of_text(Of::Camera, item.lexeme(), item.span(), false, item.text().into_owned()));
-        } else if field == Some("name") && matches!(visit.section, "objects" | "lights") {
-            let item = visit.item;
-            found.push(of_text(Of::Thing, item.lexeme(), item.span(), true, item.text().into_owned()));
-        } else if visit.section == "output"
-            && field.is_none()
-            && visit.name.is_none()
-            && matches!(visit.kind, Type::Text)
-        {
-            // An item of `masks`: no other list of the output has texts.
-            let item = visit.item;
-            found.push(of_text(Of::Thing, item.lexeme(), item.span(), false, item.text().into_owned()));
-        } else if field == Some("index") && matches!(visit.kind, Type::Text) {
-            let item = visit.item;
-            found.push(of_text(Of::Var, item.lexeme(), item.span(), true, item.text().into_owned()));
+        } else if let Some((of, defines)) = of_value(visit) {
+            found.push(of_text(of, visit.item, defines));
         }
     });
     found.sort_by_key(|place| place.range.start);
     found.dedup();
     found
+}
+
+/// What a text is the name of, if it is one, and whether it gives the name.
+fn of_value(visit: &Visit<'_, '_>) -> Option<(Of, bool)> {
+    let is_text = matches!(visit.kind, Type::Text);
+    match visit.field.map(|(field, _)| field.name) {
+        Some("material") if is_text => Some((Of::Material, false)),
+        _ if is_texture(visit) => Some((Of::Texture, false)),
+        Some("camera") if is_text => Some((Of::Camera, false)),
+        Some("name") if matches!(visit.section, "objects" | "lights") => Some((Of::Thing, true)),
+        // An item of `masks`: no other list of the output has texts.
+        None if is_text && visit.section == "output" && visit.name.is_none() => Some((Of::Thing, false)),
+        Some("index") if is_text => Some((Of::Var, true)),
+        _ => None,
+    }
 }
 
 /// Whether a text is the name of a texture, where that or a colour is due.
@@ -247,15 +246,16 @@ fn is_texture(visit: &Visit<'_, '_>) -> bool {
     is_due && !visit.item.text().starts_with(['#', '='])
 }
 
-fn of_text(of: Of, lexeme: &str, span: Span, defines: bool, name: String) -> Place {
+fn of_text<'s>(of: Of, item: Item<'_, 's>, defines: bool) -> Place<'s> {
+    let lexeme = item.lexeme();
     let is_quoted = lexeme.len() >= 2 && lexeme.starts_with(['"', '\'']);
     let inset = usize::from(is_quoted);
-    let whole = range(span);
-    Place { of, name, range: whole.start + inset..whole.end - inset, is_quoted, defines }
+    let whole = range(item.span());
+    Place { of, name: item.text(), range: whole.start + inset..whole.end - inset, is_quoted, defines }
 }
 
 /// The names in an expression that are no functions and no parts.
-fn in_expression(lexeme: &str, start: usize, found: &mut Vec<Place>) {
+fn in_expression<'s>(lexeme: &'s str, start: usize, found: &mut Vec<Place<'s>>) {
     let bytes = lexeme.as_bytes();
     let is_word = |byte: u8| byte == b'_' || byte.is_ascii_alphanumeric();
     let mut at = 0;
@@ -274,7 +274,7 @@ fn in_expression(lexeme: &str, start: usize, found: &mut Vec<Place>) {
         let name = &lexeme[from..at];
         if is_name && !is_known(name) {
             let range = start + from..start + at;
-            found.push(Place { of: Of::Var, name: name.to_owned(), range, is_quoted: true, defines: false });
+            found.push(Place { of: Of::Var, name: name.into(), range, is_quoted: true, defines: false });
         }
     }
 }

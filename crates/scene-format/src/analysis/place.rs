@@ -33,6 +33,8 @@ pub(super) struct Way {
     pub quoted: Option<usize>,
     /// The cursor stands in a comment.
     pub in_comment: bool,
+    /// The cursor stands in a header of TOML, which has names alone.
+    pub in_header: bool,
 }
 
 /// What may stand at the cursor.

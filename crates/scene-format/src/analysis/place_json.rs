@@ -70,5 +70,5 @@ pub(super) fn way(text: &str, cursor: usize) -> Way {
     let top = frames.last();
     let at_value = top.is_none_or(|frame| frame.is_list || frame.key.is_some());
     let written = top.map(|frame| frame.written.clone()).unwrap_or_default();
-    Way { steps, written, at_value, word, quoted, in_comment: false }
+    Way { steps, written, at_value, word, quoted, in_comment: false, in_header: false }
 }

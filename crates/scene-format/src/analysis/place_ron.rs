@@ -113,7 +113,7 @@ pub(super) fn way(text: &str, cursor: usize) -> Way {
     };
     // `Scale(` has one value without a name, too; whoever asks for names there gets them first.
     let written = top.map(|frame| frame.written.clone()).unwrap_or_default();
-    Way { steps, written, at_value, word, quoted, in_comment }
+    Way { steps, written, at_value, word, quoted, in_comment, in_header: false }
 }
 
 fn find(bytes: &[u8], from: usize, what: &[u8]) -> Option<usize> {

@@ -108,7 +108,7 @@ pub(super) fn way(text: &str, cursor: usize) -> Way {
         // The last part is being written.
         last.pop_if(|_| begun > 0);
         steps.extend(last.into_iter().map(Step::Key));
-        return Way { steps, written: Vec::new(), at_value: false, word, quoted, in_comment };
+        return Way { steps, written: Vec::new(), at_value: false, word, quoted, in_comment, in_header };
     }
     steps.extend(header.into_iter().map(Step::Key));
     for frame in &frames {
@@ -125,7 +125,7 @@ pub(super) fn way(text: &str, cursor: usize) -> Way {
         steps.extend(last.into_iter().map(Step::Key));
     }
     let (at_value, written) = frames.pop().map_or((false, Vec::new()), |frame| (frame.at_value, frame.written));
-    Way { steps, written, at_value, word, quoted, in_comment }
+    Way { steps, written, at_value, word, quoted, in_comment, in_header }
 }
 
 fn is_key(byte: u8) -> bool {

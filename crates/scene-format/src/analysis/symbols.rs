@@ -33,6 +33,12 @@ pub struct Symbol {
     pub children: Vec<Symbol>,
 }
 
+/// The names of the fields at the top of a text, whether a scene has them or not.
+pub fn words_at_top(text: &str, syntax: Syntax) -> Vec<String> {
+    let tree = tree(text, syntax);
+    tree.root().into_iter().flat_map(|root| root.fields()).map(|(key, _)| key.text().into_owned()).collect()
+}
+
 /// The scene's outline: its sections, and what is in its lists and maps.
 pub fn symbols(text: &str, syntax: Syntax) -> Vec<Symbol> {
     let tree = tree(text, syntax);

@@ -73,6 +73,42 @@ fn what_is_offered_in_json_has_its_quotes_once() {
     assert_eq!(snippet("{ \"objects\": [|", "Mesh"), "{ \"objects\": [{ \"Mesh\": { $0 } }");
 }
 
+/// A header of TOML is names alone: no `=` and no brackets come with them.
+#[test]
+fn names_alone_are_offered_in_headers() {
+    let written = |text: &str, label: &str| {
+        let (text, at) = cursor(text);
+        let found = complete(&text, Toml, at);
+        let item = found.items.iter().find(|item| item.label == label).unwrap_or_else(|| panic!("{label} in {text}"));
+        format!("{}{}{}", &text[..found.range.start], item.snippet, &text[found.range.end..])
+    };
+    for (text, label, whole) in [
+        ("[ren|]", "render", "[render]"),
+        ("[ren|", "render", "[render"),
+        ("[[li|]]", "lights", "[[lights]]"),
+        ("[objects.|]", "Sphere", "[objects.Sphere]"),
+        ("[[objects]]\n[objects.Sph|]", "Sphere", "[[objects]]\n[objects.Sphere]"),
+        ("[materials.red.|]", "Diffuse", "[materials.red.Diffuse]"),
+        ("[[objects.Repeat.it|]]", "items", "[[objects.Repeat.items]]"),
+        ("[ effects . ant|]", "antialiasing", "[ effects . antialiasing]"),
+    ] {
+        assert_eq!(written(text, label), whole);
+    }
+    // What is no table has no header.
+    offers("[|]", Toml, &["camera", "vars", "materials"], &["version"]);
+    offers("[camera.|]", Toml, &[], &["fov", "position"]);
+    offers("[\"|\"]", Toml, &[], &["camera"]);
+    // Every name there is one.
+    for text in ["[|]", "[objects.|]", "[objects.Mesh.|]", "[lights.|]", "[materials.a.|]", "[effects.|]"] {
+        let (text, at) = cursor(text);
+        for item in complete(&text, Toml, at).items {
+            assert_eq!(item.snippet, item.label, "{text}");
+        }
+    }
+    // Behind it all is as it was.
+    offers("[camera]\nfo|", Toml, &["fov"], &[]);
+}
+
 #[test]
 fn values_are_offered_where_values_stand() {
     offers("Scene(objects: [|", Ron, &["Sphere", "Mesh", "Repeat"], &["Diffuse", "center"]);
@@ -131,7 +167,51 @@ fn words_are_explained() {
     assert!(found.markdown.contains("`radius`"), "{}", found.markdown);
     let (text, at) = cursor("Scene(effects: Effects(tone_map: Fil|mic))");
     assert!(hover(&text, Ron, at).expect("a word").markdown.contains("**Filmic**"));
-    assert_eq!(hover("Scene(background: 1)", Ron, 19), None);
+    assert_eq!(hover("Scene(background: 1)", Ron, 20), None);
+}
+
+/// A value shows what its field takes, in all syntaxes; what is not of a field shows nothing.
+#[test]
+fn values_show_their_fields() {
+    let shown = |text: &str, syntax: Syntax| {
+        let (text, at) = cursor(text);
+        hover(&text, syntax, at).map(|found| (text[found.range].to_owned(), found.markdown))
+    };
+    let explained = |text: &str, syntax: Syntax, value: &str, words: &[&str]| {
+        let (range, markdown) = shown(text, syntax).unwrap_or_else(|| panic!("nothing in {text}"));
+        assert_eq!(range, value, "{text}");
+        for word in words {
+            assert!(markdown.contains(word), "{word} is missing: {markdown}");
+        }
+    };
+    explained(
+        "Scene(camera: Camera(fov: 3|5))",
+        Ron,
+        "35",
+        &["**fov**", "degrees", "between 0 and 180", "default `40`"],
+    );
+    explained("Scene(background: 1|)", Ron, "1", &["**background**"]);
+    explained("Scene(objects: [Sphere(center: (0, 1|2, 0), radius: 1)])", Ron, "12", &["**center**"]);
+    explained("Scene(objects: [Sphere(center: (0, 1, 0), radius: |2)])", Ron, "2", &["**radius**", "a length > 0"]);
+    explained("Scene(materials: { \"a\": Diffuse(albedo: \"#ff|0000\") })", Ron, "\"#ff0000\"", &["**albedo**"]);
+    explained("Scene(objects: [Repeat(count: 1|0, items: [])])", Ron, "10", &["**count**"]);
+    explained("Scene(objects: [Box(size: Pick(from: [1, 2|]))])", Ron, "2", &["**size**"]);
+    explained("[camera]\nfov = 3|5\n", Toml, "35", &["**fov**", "degrees"]);
+    explained("[[objects]]\nSphere = { radius = |1 }\n", Toml, "1", &["**radius**"]);
+    explained("{ \"objects\": [{ \"Box\": { \"center\": [0, 0|.5, 0] } }] }", Json, "0.5", &["**center**"]);
+    // A name says what it stands for, an expression what its words mean.
+    let name = "Scene(materials: { \"red\": Mirror() }, objects: [Sphere(radius: 1, material: \"r|ed\")])";
+    explained(name, Ron, "red", &["**red**: `Mirror()`"]);
+    explained("Scene(objects: [Sphere(radius: \"=s|in(3)\")])", Ron, "sin", &["**sin(degrees)**"]);
+    for text in [
+        "Scene(objects: [Sphere(radus: |1)])",
+        "Scene(vars: { \"h\": 2| })",
+        "Scene(objects:| [Sphere(radius: 1)])",
+        "Scene(objects: [Sphere(radius: 1) | ])",
+        "Scene(objects: [Sphere(center: (0, | 1, 0))])",
+    ] {
+        assert_eq!(shown(text, Ron), None, "{text}");
+    }
 }
 
 const NAMES: &str = "\
