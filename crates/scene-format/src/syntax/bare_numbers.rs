@@ -29,7 +29,7 @@ pub(super) fn report(
         count += 1;
     }
     // `0 1.5 4`: without commas, too.
-    let blanks = count == 1;
+    let blanks = count == 1 && text.as_bytes().get(at) != Some(&b',');
     while let Some(next) = next_after_blank(&text[end..]).filter(|_| blanks) {
         end += next;
         count += 1;
