@@ -11,12 +11,12 @@ use super::polygonal::{Polygonal, polygonal};
 use glam::{DAffine3, DVec3};
 use scene_format::desc::{Moved, Placements, endless_group};
 use scene_format::{Diagnostics, SceneDesc};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use tracer_mesh::MeshData;
 
 /// Where groups come to whose steps ask how far they reach, by the place of their descriptions in memory.
 #[derive(Default)]
-pub struct Settled(HashMap<usize, (DAffine3, Vec<DAffine3>)>);
+pub struct Settled(BTreeMap<usize, (DAffine3, Vec<DAffine3>)>);
 
 fn key(group: &Moved) -> usize {
     std::ptr::from_ref(group).addr()
@@ -54,9 +54,9 @@ impl Thing<'_> {
 
 impl<'a> Things<'a> {
     /// Those of these numbers, which grow. What could not be read is left out: that is told.
-    fn of(&self, desc: &'a SceneDesc, numbers: &[usize]) -> HashMap<usize, Thing<'a>> {
+    fn of(&self, desc: &'a SceneDesc, numbers: &[usize]) -> BTreeMap<usize, Thing<'a>> {
         let asked = |number: u32| numbers.binary_search(&(number as usize)).is_ok();
-        let mut all = HashMap::new();
+        let mut all = BTreeMap::new();
         for (object, file) in
             polygonal(desc).zip(&self.loaded.file_of_object).filter(|(object, _)| asked(object.number))
         {
@@ -94,7 +94,7 @@ struct Asking<'a> {
 /// The groups of a scene whose steps ask, those that stand in others first.
 fn asking(desc: &SceneDesc) -> Vec<Asking<'_>> {
     let mut all: Vec<Asking<'_>> = Vec::new();
-    let mut known: HashMap<usize, usize> = HashMap::new();
+    let mut known: BTreeMap<usize, usize> = BTreeMap::new();
     for (number, object) in desc.objects.iter().enumerate() {
         let Placements::Within(within) = object.value.placements() else { continue };
         for (depth, group) in within.groups.outwards().into_iter().rev().enumerate() {
