@@ -299,11 +299,24 @@ fn colors_without_quotes_and_of_other_languages() {
         ("#ff8800", "\"#ff8800\""),
         ("new THREE.Color(0x87ceeb)", "\"#87ceeb\""),
         ("THREE.Color(\"#87ceeb\")", "\"#87ceeb\""),
-        ("\"5000K\"", "\"=blackbody(5000)\""),
         ("0.1 0.2 0.3", "(0.1, 0.2, 0.3)"),
     ]
     .map(|(written, right)| (ball(written), ball(right)));
     check_once(&cases.each_ref().map(|(written, right)| (written.as_str(), right.as_str())));
+}
+
+/// The colour of a temperature is one of light: its red is more than 1, which nothing reflects.
+#[test]
+fn temperatures_in_kelvin_are_colors_of_light() {
+    let text =
+        |background: &str| format!("Scene(background: {background}, objects: [Sphere(center: (0, 0, 0), radius: 1)])");
+    let found = errors(&text("\"5000K\""), Syntax::Ron);
+    assert_eq!(found.len(), 1, "{found:?}");
+    let mended = apply_edits(&text("\"5000K\""), &[found[0].edit.clone().expect("an edit")]);
+    assert_eq!(mended, text("\"=blackbody(5000)\""));
+    assert!(errors(&mended, Syntax::Ron).is_empty());
+    let ball = "Sphere(center: (0, 0, 0), radius: 1, material: Diffuse(albedo: \"5000K\"))";
+    assert!(errors(&scene(ball, Syntax::Ron), Syntax::Ron).iter().all(|fault| fault.edit.is_none()));
 }
 
 #[test]

@@ -12,15 +12,11 @@ use crate::schema::{FieldDef, StructDef};
 use crate::syntax::{Syntax, decode};
 use crate::tree::{Item, Kind};
 
-/// `5000K`: the expression of that colour.
-pub(super) fn of_kelvins(text: &str) -> Option<String> {
+/// `5000K`: the expression of that colour, where more than 1 may stand, which its red is.
+pub(super) fn of_kelvins(text: &str, at: &FieldDef) -> Option<String> {
     let kelvin = text.trim().strip_suffix(['K', 'k'])?.trim_end();
-    TEMPERATURES.contains(&decode::number(kelvin)).then(|| format!("\"=blackbody({kelvin})\""))
-}
-
-/// Whether a text is a colour, in words that are none here.
-pub(super) fn is_color_elsewhere(text: &str) -> bool {
-    named_color(text).is_some() || of_kelvins(text).is_some()
+    let fits = at.rule.range.high != 1.0 && TEMPERATURES.contains(&decode::number(kelvin));
+    fits.then(|| format!("\"=blackbody({kelvin})\""))
 }
 
 /// Colours by their names in CSS, for hints.

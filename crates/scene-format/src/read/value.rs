@@ -519,7 +519,7 @@ impl Reader<'_> {
         let word = text.trim();
         let digits = word.trim_start_matches('#');
         let hex = matches!(digits.len(), 3 | 6) && digits.bytes().all(|b| b.is_ascii_hexdigit());
-        let known = self.knows_var(word) || elsewhere::is_color_elsewhere(text);
+        let known = self.knows_var(word) || elsewhere::named_color(text).is_some();
         known || hex || word.is_empty() || decode::number(text).is_finite() || is_picture(text)
     }
 
@@ -566,7 +566,7 @@ impl Reader<'_> {
         } else if decode::number(&text).is_finite() {
             fault.hint = "write the number without quotes".to_owned();
             fault.edit = Some(Edit { span: item.span(), replacement: text.into_owned() });
-        } else if let Some(mended) = elsewhere::of_kelvins(&text) {
+        } else if let Some(mended) = elsewhere::of_kelvins(&text, at) {
             fault.hint = format!("the colour of that temperature is {mended}");
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
         } else if let Some(number) = before_unit(&text) {
