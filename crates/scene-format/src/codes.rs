@@ -244,8 +244,8 @@ codes! {
     /// Scene(repeat: 3, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     RESERVED_WORD "E0210" "a word that is kept for later versions";
-    /// `DropTo` or `FitTo` stands in the `transform` or the `placements` of a `Plane`, or of a `Group` or an `Include` in
-    /// which one stands. It has no lowest point and no extent: move it by `Translate`, or take it out of the group.
+    /// `DropTo` or `FitTo` stands in the `transform` or the `placements` of a `Plane`, or of a `Group` or an `Include`
+    /// in which one stands. It has no lowest point and no extent: move it by `Translate`, or take it out of the group.
     ///
     /// ```ron
     /// Scene(

@@ -352,7 +352,7 @@ pub(crate) fn withhold(text: &str, faults: &mut [Diagnostic]) {
     let mut lines: Vec<Range<u32>> = Vec::new();
     for fault in faults.iter().filter(unclear) {
         match lines.last_mut() {
-            // Faults are in order of position. What lies on a line that is known needs no look: it may be all of a file.
+            // Faults are in order of position. What lies on a line that is known needs no look: it may be a whole file.
             Some(last) if fault.span.end < last.end => {}
             Some(last) if fault.span.start < last.end => {
                 last.end = lines_of(text, fault.span.start, fault.span.end).end;

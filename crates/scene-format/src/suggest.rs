@@ -57,7 +57,7 @@ impl Sketch {
         Sketch { length: word.is_ascii().then_some(length), letters }
     }
 
-    /// No more edits than between the words: each changes the length by one at most, and which letters there are by two.
+    /// No more edits than between the words: each changes the length by one at most, and the set of letters by two.
     fn edits_to(self, other: Sketch) -> usize {
         let (Some(a), Some(b)) = (self.length, other.length) else { return 0 };
         a.abs_diff(b).max((self.letters ^ other.letters).count_ones().div_ceil(2) as usize)

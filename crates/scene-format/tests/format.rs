@@ -155,8 +155,8 @@ fn a_tidy_scene_says_the_same_and_stays_as_it_is() {
     }
 }
 
-/// What somebody has given a line for each entry stays so, for the next one to be added; what `tracer new` makes is laid
-/// out as everybody's.
+/// What somebody has given a line for each entry stays so, for the next one to be added; what `tracer new` makes is
+/// laid out as everybody's.
 #[test]
 fn entries_on_lines_of_their_own_keep_them() {
     let head = "Scene(\n    version: 1,\n    background: 1,\n";
@@ -167,7 +167,8 @@ fn entries_on_lines_of_their_own_keep_them() {
         ),
         (
             "    objects: [Sphere(\n center: (0, 0, 0), radius: 1)])",
-            "    objects: [\n        Sphere(\n            center: (0, 0, 0),\n            radius: 1,\n        ),\n    ],\n)\n",
+            "    objects: [\n        Sphere(\n            center: (0, 0, 0),\n            radius: 1,\n        ),\n\
+             \x20   ],\n)\n",
         ),
         (
             "    objects: [Sphere(center: (0, 0, 0),\n radius: 1)])",

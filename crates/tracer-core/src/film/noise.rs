@@ -187,8 +187,8 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones, and where few
-    /// pixels bear the noise: how fast it has fallen is chance there, and many samples more will meet others.
+    /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones, and where
+    /// few pixels bear the noise: how fast it has fallen is chance there, and many samples more will meet others.
     pub fn noise_rate(&self) -> f64 {
         if self.octave.pixels < MANY { 1.0 } else { self.octave.rate() }
     }

@@ -33,9 +33,9 @@ const GATES: &[Gate] = &[
     // 6 to 9 % more for the others. Tables looked up row by row, columns of known length and small spheres about their
     // centre: 151 M then. Every segment between pixels that counts is tested now, a sixteenth was before; photons guide
     // rays instead of being gathered, and the map is gone: 209 M, the hills 422 M (221 M before), a hundred lamps 277 M
-    // (190 M), a thousand copies 931 M (1196 M). Shafts tell what can be between a suffix and its group, and light paths
-    // come from the lights: 190, 386, 203 and 918 M. Blocks are ragged and reach over 31 columns and rows instead of
-    // 16: more spheres can be between, a hundred lamps 219 M. Blocks deal their columns and rows by hash instead of
+    // (190 M), a thousand copies 931 M (1196 M). Shafts tell what can be between a suffix and its group, and light
+    // paths come from the lights: 190, 386, 203 and 918 M. Blocks are ragged and reach over 31 columns and rows instead
+    // of 16: more spheres can be between, a hundred lamps 219 M. Blocks deal their columns and rows by hash instead of
     // every other one, and the tree always counts: 196, 378, 221 and 901 M.
     Gate { name: "sharing: balls", most: 201_400_000, run: || picture(&balls(64, 4)) },
     Gate { name: "sharing: hills", most: 389_500_000, run: || picture(&hills(20_000, 64, 4)) },
