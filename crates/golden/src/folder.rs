@@ -3,7 +3,7 @@
 use crate::settings::{FILE, Settings};
 use std::collections::BTreeMap;
 use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// A scene and where its expected picture lies.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,29 +65,6 @@ fn name(folder: &Path, file: &Path) -> String {
     relative.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/")
 }
 
-/// A path without `.` and `..`, as hosts of repositories compare paths: `golden/../room.ron` is `room.ron`. Where a
-/// link makes that another file, the path as it is.
-pub fn plain(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::new();
-    for part in path.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir if matches!(plain.components().next_back(), Some(Component::Normal(_))) => {
-                plain.pop();
-            }
-            part => plain.push(part),
-        }
-    }
-    // Of its folder: the file itself may be a link, and need not be there.
-    let real = |path: &Path| {
-        let folder = path.parent()?;
-        std::fs::canonicalize(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }).ok()
-    };
-    let is_same =
-        plain.file_name() == path.file_name() && real(&plain).is_some_and(|folder| Some(folder) == real(path));
-    if is_same { plain } else { path.to_owned() }
-}
-
 impl Folder {
     /// Looks through a folder. What is a scene, the caller says of files that are there.
     ///
@@ -105,7 +82,6 @@ impl Folder {
             let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             settings.scenes.iter().map(|path| (stem(path), folder.join(path))).collect()
         };
-        let scenes = scenes.into_iter().map(|(name, scene)| (name, plain(&scene)));
         let mut cases: BTreeMap<String, Case> = BTreeMap::new();
         for (name, scene) in scenes {
             if let Some(Case { scene: other, .. }) = cases.get(&name) {
@@ -193,31 +169,7 @@ mod tests {
         let golden = at.path().join("golden");
         let found = Folder::find(&golden, &settings, &is_ron).expect("a folder");
         assert_eq!((found.cases.len(), found.cases[0].png.clone()), (1, golden.join("a.png")));
-        // As a host of repositories knows it.
-        assert_eq!(found.cases[0].scene, at.path().join("scenes/a.ron"));
-    }
-
-    #[test]
-    fn paths_are_plain() {
-        let at = folder(&["golden/a.ron", "room.ron", "elsewhere/deep/b.ron"]);
-        let within = |path: &str| at.path().join(path);
-        for (path, expected) in [
-            ("golden/../room.ron", "room.ron"),
-            ("golden/./a.ron", "golden/a.ron"),
-            ("golden/../elsewhere/deep/../deep/b.ron", "elsewhere/deep/b.ron"),
-            ("golden/../none.ron", "none.ron"),
-            ("nowhere/../room.ron", "nowhere/../room.ron"),
-        ] {
-            assert_eq!(plain(&within(path)).as_os_str(), within(expected).as_os_str(), "{path}");
-        }
-        // `src` is there: tests run in the crate's folder.
-        assert_eq!(plain(Path::new("./src/../Cargo.toml")).as_os_str(), "Cargo.toml");
-        assert_eq!(plain(Path::new("../a.ron")).as_os_str(), "../a.ron");
-        #[cfg(unix)]
-        {
-            std::os::unix::fs::symlink(within("elsewhere/deep"), within("link")).expect("a link");
-            assert_eq!(plain(&within("link/../deep/b.ron")).as_os_str(), within("link/../deep/b.ron").as_os_str());
-        }
+        assert_eq!(found.cases[0].scene, golden.join("../scenes/a.ron"));
     }
 
     #[test]

@@ -13,8 +13,6 @@ mod files;
 mod kin;
 mod positions;
 mod stdio;
-#[cfg(test)]
-mod times;
 mod voice;
 
 use answers::Why;

@@ -1,7 +1,7 @@
 //! What is said to the editor: texts of JSON, written in one go.
 //!
-//! The tree of values that `lsp-server` sends takes ten times as long: every place of a long answer is three maps with
-//! keys of their own.
+//! In the tree of values that `lsp-server` sends every place of a long answer is three maps with keys of their own, which
+//! takes much longer than to write them.
 
 use crate::Error;
 use lsp_server::{Message, RequestId, ResponseError};

@@ -1,11 +1,10 @@
 //! Reading a whole input file, of the disk or of memory, and what can go wrong before its first byte is looked at.
 
-use scene_format::Diagnostic;
-use scene_format::codes;
 use scene_format::diagnostic::Span;
+use scene_format::{Diagnostic, codes, plain_path};
 use std::collections::BTreeMap;
 use std::ffi::OsString;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::{fs, io};
 
@@ -29,12 +28,12 @@ pub struct Files {
 impl Files {
     /// Puts a file there, in place of one of the disk with that path.
     pub fn insert(&mut self, path: impl AsRef<Path>, bytes: impl Into<Arc<[u8]>>) {
-        self.memory.insert(plain(path.as_ref()), bytes.into());
+        self.memory.insert(plain_path(path.as_ref()), bytes.into());
     }
 
     /// The file of this path that is in memory.
     pub fn get(&self, path: &Path) -> Option<&Arc<[u8]>> {
-        if self.memory.is_empty() { None } else { self.memory.get(&plain(path)) }
+        if self.memory.is_empty() { None } else { self.memory.get(&plain_path(path)) }
     }
 
     /// All bytes of a file.
@@ -49,21 +48,6 @@ impl Files {
     pub fn has(&self, path: &Path) -> bool {
         self.get(path).is_some() || path.is_file()
     }
-}
-
-/// One of the names that a path has: without `.`, and without `..` where that leads back.
-pub fn plain(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::new();
-    for part in path.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir if matches!(plain.components().next_back(), Some(Component::Normal(_))) => {
-                plain.pop();
-            }
-            part => plain.push(part),
-        }
-    }
-    plain
 }
 
 /// A mesh, texture, placements or MTL file that could not be read at all.

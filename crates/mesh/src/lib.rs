@@ -50,7 +50,7 @@ pub use arrays::MeshArrays;
 pub use colors::{ColorValues, VertexColors, Wanted};
 pub use data::{MAX_COORDINATE, MeshData, MtlNames, NO_INDEX};
 pub use error::{MeshError, Place};
-pub use files::{FileError, Files, plain, read_regular_file};
+pub use files::{FileError, Files, read_regular_file};
 pub use format::MeshFormat;
 pub use inline::mesh_of;
 

@@ -98,10 +98,16 @@ pub(crate) fn broken_lines(text: &str, faults: &[Diagnostic]) -> Vec<Range<u32>>
     lines
 }
 
-/// A path from the scene's folder, for a name in a file of this folder: without `.`, and without `..` after a name.
+/// A path from the scene's folder, for a name in a file of this folder: [`plain_path`] of both.
 pub(crate) fn joined(folder: &Path, name: &str) -> PathBuf {
+    plain_path(&folder.join(name))
+}
+
+/// One of the names that a path has: without `.`, and without `..` where that leads back. No file is looked at; where a
+/// folder is a link, it may be another one.
+pub fn plain_path(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
-    for part in folder.join(name).components() {
+    for part in path.components() {
         match part {
             Component::CurDir => {}
             Component::ParentDir if matches!(out.components().next_back(), Some(Component::Normal(_))) => {

@@ -88,7 +88,7 @@ pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use edit::{Viewpoint, ViewpointError, write_viewpoint};
 pub use examples::{Example, ExampleFile, examples};
 pub use explain::{explain_word, words};
-pub use files::{FileKind, MAX_FILE_BYTES, NamedFile};
+pub use files::{FileKind, MAX_FILE_BYTES, NamedFile, plain_path};
 pub use json_schema::schema;
 pub use load::{LoadError, Loaded, load, load_bytes, load_str, load_with};
 pub use mend::{Mended, mend};

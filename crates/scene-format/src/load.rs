@@ -2,12 +2,13 @@
 
 use crate::codes;
 use crate::desc::{self, Moments, SceneDesc};
-use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span, say_where_included};
+use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Severity, Source, Span, say_where_included};
 use crate::files::{self, FileKind, MAX_FILE_BYTES, NamedFile};
 use crate::follow_ups;
 use crate::include::Library;
 use crate::overrides::{self, Override};
 use crate::read::{self, Whole};
+use crate::render::apply_edits;
 use crate::syntax::{Sink, Syntax, foreign, parse, parse_as};
 use crate::tree::NO_SOURCE;
 use crate::write::{Defaults, to_json};
@@ -180,8 +181,15 @@ impl Texts {
             sink.files.add(FileKind::Scene, &file.path, file.from);
         }
         sink.diagnostics.iter_mut().for_each(|fault| say_where_included(fault, sources));
+        let helps = |edit: &Edit| {
+            let mut sink_of_edited = Sink::default();
+            let edited = apply_edits(text, std::slice::from_ref(edit));
+            analyse(&edited, *syntax, overrides, library, share, &mut sink_of_edited);
+            sink_of_edited.errors < sink.errors
+        };
         if sink.errors > 0
             && let Some(fault) = foreign::whole(text, *syntax)
+            && fault.edit.as_ref().is_none_or(helps)
         {
             return Err(Faults { diagnostics: vec![fault], files: Vec::new(), undecided: None });
         }

@@ -326,6 +326,15 @@ fn signs_of_other_keyboards() {
         ("Sphere（center：（0, 0, 0），radius: 1）", "Sphere(center:(0, 0, 0),radius: 1)"),
         ("Sphere(center: (0, 0, 0), radius：1, name: \"：\")", "Sphere(center: (0, 0, 0), radius:1, name: \"：\")"),
     ]);
+    // Where they stand in comments, and something else is wrong, that is told.
+    for (text, syntax) in [
+        ("Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radus: 1)]) // （a）", Syntax::Ron),
+        ("Scene(background: 1, /* （ */ objects: [Sphere(center: (0, 0, 0), radus: 1)])", Syntax::Ron),
+        ("# （a）\nbackground = 1\n[[objects]]\nSphere = { center = [0, 0, 0], radus = 1 }", Syntax::Toml),
+    ] {
+        let found = errors(text, syntax);
+        assert!(found.iter().all(|fault| fault.message.contains("radus")) && found.len() == 1, "{text}: {found:?}");
+    }
     // What is right may have such signs in texts.
     assert!(errors(&scene("Sphere(center: (0, 0, 0), radius: 1, name: \"（\")", Syntax::Ron), Syntax::Ron).is_empty());
 }

@@ -4,14 +4,14 @@ use super::Syntax;
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 
-/// What a wrong text is as a whole; asked only where it is wrong.
+/// What a wrong text is as a whole; asked only where it is wrong. What has an edit counts where that leaves less wrong.
 pub(crate) fn whole(text: &str, syntax: Syntax) -> Option<Diagnostic> {
-    conflict(text).or_else(|| language(text, syntax)).or_else(|| wide_signs(text))
+    conflict(text).or_else(|| language(text, syntax)).or_else(|| wide_signs(text, syntax))
 }
 
 /// Brackets, colons and the like as Chinese and Japanese keyboards write them, outside of texts and comments: told and
 /// mended all at once, since where one is another is.
-fn wide_signs(text: &str) -> Option<Diagnostic> {
+fn wide_signs(text: &str, syntax: Syntax) -> Option<Diagnostic> {
     const WIDE: [(char, char); 10] = [
         ('（', '('),
         ('）', ')'),
@@ -29,6 +29,7 @@ fn wide_signs(text: &str) -> Option<Diagnostic> {
     if !text.contains(|sign| sign != '，' && plain(sign).is_some()) {
         return None;
     }
+    let comment = if syntax == Syntax::Toml { "#" } else { "//" };
     let mut found: Vec<(usize, char)> = Vec::new();
     let mut begin = 0;
     for line in text.split_inclusive('\n') {
@@ -36,7 +37,7 @@ fn wide_signs(text: &str) -> Option<Diagnostic> {
         for (at, sign) in line.char_indices() {
             match sign {
                 '"' => quoted = !quoted,
-                '/' if !quoted && line[at..].starts_with("//") => break,
+                '/' | '#' if !quoted && line[at..].starts_with(comment) => break,
                 _ if !quoted && plain(sign).is_some() => found.push((begin + at, sign)),
                 _ => {}
             }

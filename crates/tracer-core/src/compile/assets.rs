@@ -4,11 +4,12 @@ use super::kept::{self, Kept};
 use super::stored::{self, Store};
 use crate::texture::{self, Landscape, Panorama, Pixels, Reading, Texture, TextureError};
 use glam::DAffine3;
+use scene_format::plain_path;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 use tracer_mesh::placements::{PlacementsError, load_placements, parse_placements};
-use tracer_mesh::{self as mesh, Files, MeshArrays, MeshData, MeshError, Wanted, plain};
+use tracer_mesh::{self as mesh, Files, MeshArrays, MeshData, MeshError, Wanted};
 
 /// Something that a scene names as a file and that is in memory.
 #[derive(Clone, Debug)]
@@ -58,7 +59,7 @@ pub struct Assets {
 impl Assets {
     /// Puts something there under a name; what was there before comes back.
     pub fn insert(&mut self, name: impl AsRef<Path>, asset: impl Into<Asset>) -> Option<Asset> {
-        self.by_name.insert(plain(name.as_ref()), asset.into())
+        self.by_name.insert(plain_path(name.as_ref()), asset.into())
     }
 
     /// Whether there is nothing.
@@ -111,7 +112,7 @@ impl<'a> Sources<'a> {
     pub fn new(assets: &Assets, base_dir: &Path) -> Self {
         let mut sources = Sources::default();
         for (name, asset) in &assets.by_name {
-            let path = plain(&base_dir.join(name));
+            let path = plain_path(&base_dir.join(name));
             match asset {
                 Asset::File(bytes) => sources.files.insert(path, Arc::clone(bytes)),
                 Asset::Mesh(mesh) => drop(sources.meshes.insert(path, Arc::clone(mesh))),
@@ -143,13 +144,13 @@ impl<'a> Sources<'a> {
     }
 
     pub fn mesh(&self, path: &Path, wanted: Wanted<'_>) -> Result<Arc<MeshData>, MeshError> {
-        if let Some(arrays) = self.meshes.get(&plain(path)) {
+        if let Some(arrays) = self.meshes.get(&plain_path(path)) {
             if wanted.part.is_some() {
                 return Err(MeshError::NoParts { path: path.to_owned(), what: "meshes in memory".to_owned() });
             }
             return arrays.mesh(path).map(Arc::new);
         }
-        if self.pixels.contains_key(&plain(path)) {
+        if self.pixels.contains_key(&plain_path(path)) {
             let (message, expected) = ("it is a picture".to_owned(), "a mesh".to_owned());
             return Err(MeshError::Arrays { path: path.to_owned(), message, expected });
         }
@@ -205,9 +206,9 @@ impl<'a> Sources<'a> {
 
     /// The picture of this path that is in memory as numbers; an error where a mesh is.
     fn pixels(&self, path: &Path) -> Result<Option<&Pixels>, TextureError> {
-        if self.meshes.contains_key(&plain(path)) {
+        if self.meshes.contains_key(&plain_path(path)) {
             return Err(TextureError::Mesh { path: path.to_owned() });
         }
-        Ok(self.pixels.get(&plain(path)).map(|pixels| &**pixels))
+        Ok(self.pixels.get(&plain_path(path)).map(|pixels| &**pixels))
     }
 }

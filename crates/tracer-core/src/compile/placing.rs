@@ -204,12 +204,17 @@ pub fn copies(
             let mut found = Diagnostics::new();
             let inner = |outer: &&Moved| group.is_none_or(|group| !std::ptr::eq(*outer, group));
             for group in within.groups.outwards().into_iter().take_while(inner) {
-                let (step, around) = given.settled.of(group).unwrap_or_else(|| {
+                let unasked;
+                let (step, around) = match given.settled.of(group) {
+                    Some(settled) => settled,
                     // It asks nothing, or something else is wrong with what stands in it.
-                    let of_group = Subject::unknown("group");
-                    let step = place(&group.transform, &of_group, &mut found);
-                    (step, copies(given, &group.placements, None, &of_group, &mut found))
-                });
+                    None => {
+                        let of_group = Subject::unknown("group");
+                        let step = place(&group.transform, &of_group, &mut found);
+                        unasked = (step, copies(given, &group.placements, None, &of_group, &mut found));
+                        &unasked
+                    }
+                };
                 if maps.len() as u64 * around.len() as u64 > MOST_COPIES {
                     let at = group.placements.files().first().map_or(Span::NONE, |file| file.span);
                     let message = format!("groups make more than {MOST_COPIES} copies of an object");
@@ -217,7 +222,7 @@ pub fn copies(
                     maps.clear();
                     break;
                 }
-                let outer = around.iter().map(|outer| *outer * step);
+                let outer = around.iter().map(|outer| *outer * *step);
                 maps = outer.flat_map(|outer| maps.iter().map(move |inner| outer * *inner)).collect();
             }
             for fault in found {

@@ -24,8 +24,8 @@ fn key(group: &Moved) -> usize {
 
 impl Settled {
     /// The transform of a group and its copies, if it is one of those.
-    pub fn of(&self, group: &Moved) -> Option<(DAffine3, Vec<DAffine3>)> {
-        self.0.get(&key(group)).cloned()
+    pub fn of(&self, group: &Moved) -> Option<&(DAffine3, Vec<DAffine3>)> {
+        self.0.get(&key(group))
     }
 }
 

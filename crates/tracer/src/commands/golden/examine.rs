@@ -1,5 +1,6 @@
 //! A scene rendered and held against its expected picture.
 
+use super::host_path::host_path;
 use super::made::{Made, Record};
 use super::rendering::{NoPicture, Rendered, make};
 use crate::commands::scenes::is_scene;
@@ -9,7 +10,7 @@ use crate::failure::{Failure, leads_nowhere, why};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tracer_core::Level;
-use tracer_golden::folder::{Case, Folder, plain};
+use tracer_golden::folder::{Case, Folder};
 use tracer_golden::measured::Measured;
 use tracer_golden::noise::{Judgement, judge};
 use tracer_golden::outcome::{Flip, Outcome, Verdict};
@@ -99,7 +100,7 @@ impl Opened {
         let mut outcome = Outcome {
             folder: self.name.clone(),
             name: case.name.clone(),
-            file: case.scene.clone(),
+            file: host_path(&case.scene),
             scene: std::fs::read_to_string(&case.scene).unwrap_or_default(),
             verdict: Verdict::Equal,
             seconds: 0.0,
@@ -155,7 +156,7 @@ impl Opened {
             expected: std::fs::read(&file).ok().and_then(|bytes| Rgb8::from_png(&bytes).ok()),
             actual: None,
             flip: None,
-            file: plain(&file),
+            file: host_path(&file),
         };
         orphans.into_iter().map(outcome).collect()
     }

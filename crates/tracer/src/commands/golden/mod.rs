@@ -3,6 +3,7 @@
 
 mod accept;
 mod examine;
+mod host_path;
 mod made;
 mod new;
 mod rendering;
