@@ -206,8 +206,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "dropped-by-too-much",
         file: PLACING,
-        find: "y - reach(&map, 1)[0]",
-        replace: "y + reach(&map, 1)[0]",
+        find: "y - (subject.reach)(&map, 1)[0]",
+        replace: "y + (subject.reach)(&map, 1)[0]",
         caught_by: units(&["compile::placing"]),
     },
     Mutant {
