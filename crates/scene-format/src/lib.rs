@@ -49,6 +49,7 @@
 pub mod analysis;
 pub mod codes;
 mod convert;
+mod css_colors;
 pub mod desc;
 mod deserialize;
 pub mod diagnostic;

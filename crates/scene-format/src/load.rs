@@ -408,18 +408,38 @@ fn in_wide(name: &str, text: String, encoding: &str) -> LoadError {
     }
 }
 
+/// What a file is that is no text, by its first bytes, and what to do with it.
+fn of_bytes(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    const MESH: &str = "a mesh stands in a scene: Mesh(file: \"..\")";
+    const PICTURE: &str = "a picture stands in a scene as a texture or a background; `tracer new` starts a scene";
+    const KNOWN: [(&[u8], &str, &str); 12] = [
+        (b"BLENDER", "a file of Blender", "export a mesh from it, as glTF or OBJ, and name that: Mesh(file: \"..\")"),
+        (b"\x28\xb5\x2f\xfd", "packed by zstd, as files of Blender are", "unpack it"),
+        (b"\x1f\x8b", "packed by gzip", "unpack it: `gunzip FILE`"),
+        (b"PK\x03\x04", "a zip archive", "unpack it"),
+        (b"%PDF", "a PDF", "save it as text in UTF-8"),
+        (b"glTF", "a mesh in GLB", MESH),
+        (b"ply\n", "a mesh in PLY", MESH),
+        (b"\x89PNG", "a picture in PNG", PICTURE),
+        (b"\xff\xd8\xff", "a picture in JPEG", PICTURE),
+        (b"\x76\x2f\x31\x01", "a picture in OpenEXR", PICTURE),
+        (b"#?RADIANCE", "a picture in Radiance HDR", PICTURE),
+        (b"\x7fELF", "a program", "name a scene"),
+    ];
+    KNOWN.iter().find(|(head, ..)| bytes.starts_with(head)).map(|(_, name, way)| (*name, *way))
+}
+
 fn not_utf8(name: &str, error: &std::string::FromUtf8Error) -> LoadError {
     let at = error.utf8_error().valid_up_to();
     let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
     let byte = error.as_bytes().get(at).copied().unwrap_or(0);
     let span = Span { source: 0, start: at as u32, end: at as u32 + 3 };
-    let diagnostic = Diagnostic::error(
-        codes::NOT_UTF8,
-        span,
-        format!("the file is not UTF-8: byte {at} (0x{byte:02x}) is no character"),
-    )
-    .expected("a text file in UTF-8")
-    .hint("save it as UTF-8 in your editor");
+    let bad = format!("byte {at} (0x{byte:02x}) is no character");
+    let (message, way) = match of_bytes(error.as_bytes()) {
+        Some((what, way)) => (format!("the file is {what}, not a scene: {bad}"), way),
+        None => (format!("the file is not UTF-8: {bad}"), "save it as UTF-8 in your editor"),
+    };
+    let diagnostic = Diagnostic::error(codes::NOT_UTF8, span, message).expected("a text file in UTF-8").hint(way);
     LoadError::Invalid {
         diagnostics: vec![diagnostic],
         sources: vec![Source { name: name.to_owned(), text, included: None }],

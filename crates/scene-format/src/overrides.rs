@@ -328,6 +328,10 @@ impl Setter {
             if let Some(group) = group.filter(|_| def.name == "Scene") {
                 fault.did_you_mean(Some(&format!("{}.{name}", group.name)), str::to_owned);
             }
+            let vars = || item.fields().find(|(key, _)| key.text() == "vars").map(|(_, vars)| vars);
+            if def.name == "Scene" && vars().is_some_and(|vars| vars.fields().any(|(key, _)| key.text() == name)) {
+                fault.did_you_mean(Some(&format!("vars.{name}")), str::to_owned);
+            }
             if let Some(option) = command_line(name, def) {
                 (fault.hint, fault.edit) = (option.to_owned(), None);
             }

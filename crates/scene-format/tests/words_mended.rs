@@ -284,6 +284,9 @@ fn arithmetic_in_and_behind_brackets_and_quotes() {
         ("\"=gap/10\"*2", "\"=(gap/10)*2\""),
         ("gap > 1 ? 4 : 5", "\"=if(gap > 1, 4, 5)\""),
         ("5\u{a0}", "5"),
+        ("<5>", "5"),
+        ("if gap > 1 then 4 else 5", "\"=if(gap > 1, 4, 5)\""),
+        ("if true then 4 else gap/2", "\"=if(true, 4, gap/2)\""),
     ]
     .map(|(written, right)| (ball(written), ball(right)));
     check_once(&cases.each_ref().map(|(written, right)| (written.as_str(), right.as_str())));
@@ -300,6 +303,12 @@ fn colors_without_quotes_and_of_other_languages() {
         ("new THREE.Color(0x87ceeb)", "\"#87ceeb\""),
         ("THREE.Color(\"#87ceeb\")", "\"#87ceeb\""),
         ("0.1 0.2 0.3", "(0.1, 0.2, 0.3)"),
+        ("skyblue", "\"#87ceeb\""),
+        ("\"goldenrod\"", "\"#daa520\""),
+        ("hsl(270, 50%, 40%)", "\"#663399\""),
+        ("hsv(0, 0, 50)", "\"#808080\""),
+        ("\"hsl(270deg 50% 40%)\"", "\"#663399\""),
+        ("\"rgb(102, 51, 153)\"", "\"#663399\""),
     ]
     .map(|(written, right)| (ball(written), ball(right)));
     check_once(&cases.each_ref().map(|(written, right)| (written.as_str(), right.as_str())));
@@ -365,5 +374,37 @@ fn constants_of_other_languages_are_told() {
         let found = errors(&text, Syntax::Ron);
         assert_eq!(found.len(), 1, "{text} {found:#?}");
         assert_eq!((found[0].hint.as_str(), &found[0].edit), (hint, &None), "{text}");
+    }
+}
+
+#[test]
+fn kinds_of_other_programs() {
+    let ball = "Sphere(center: (0, 0, 0), radius: 1";
+    let cases = [
+        (format!("{ball}, material: Metal(Gold))"), format!("{ball}, material: Conductor(metal: Gold))")),
+        (format!("Difference(of: [{ball}), Box(size: 1)])"), format!("Difference(objects: [{ball}), Box(size: 1)])")),
+    ];
+    check_once(&cases.each_ref().map(|(written, right)| (written.as_str(), right.as_str())));
+    // Other languages take radians: they say so 50 degrees.
+    let scene = |fov: &str| format!("Scene(background: 1, camera: Camera(fov: {fov}), objects: [{ball})])");
+    let found = errors(&scene("radians(50)"), Syntax::Ron);
+    assert_eq!(found.len(), 1, "{found:?}");
+    let mended = apply_edits(&scene("radians(50)"), &[found[0].edit.clone().expect("an edit")]);
+    assert_eq!(mended, scene("50"));
+}
+
+/// What is missing or too much around the whole of a scene.
+#[test]
+fn a_scene_without_its_brackets() {
+    let fields = "version: 1,\n    background: 1,\n    objects: [Sphere(center: (0, 0, 0), radius: 1)],";
+    for (written, right) in [
+        (format!("// one\n{fields}\n"), format!("// one\n(\n{fields}\n)\n")),
+        (format!("Scene: (\n{fields}\n)"), format!("Scene(\n{fields}\n)")),
+    ] {
+        let found = errors(&written, Syntax::Ron);
+        assert_eq!(found.len(), 1, "{written}: {found:?}");
+        let mended = apply_edits(&written, &[found[0].edit.clone().expect("an edit")]);
+        assert_eq!(mended, right);
+        assert!(errors(&mended, Syntax::Ron).is_empty(), "{mended}");
     }
 }

@@ -226,6 +226,12 @@ fn in_other_languages() {
         ("Union(left: Box(size: 1), right: Box(size: 2))".to_owned(), "write `objects: [Box(size: 1), Box(size: 2)]`"),
         ("Box(size: 1, material: Emissive(power: \"100 W\"))".to_owned(), "numbers carry no unit: write 100"),
         ("Mesh(file: a/b)".to_owned(), "write \"a/b\""),
+        ("Shape \"sphere\" \"float radius\" [ 1 ]".to_owned(), "write Sphere(center: (x, y, z), radius: ..)"),
+        (
+            "Box(size: 1, material: Material \"diffuse\" \"rgb reflectance\" [ .5 .5 .5 ])".to_owned(),
+            "write Diffuse(albedo: (r, g, b))",
+        ),
+        ("RectAreaLight(width: 1, height: 2)".to_owned(), "a lamp is an object that shines"),
     ];
     let cases: Vec<(&str, &str)> = cases.iter().map(|(written, told)| (written.as_str(), *told)).collect();
     check(&cases, |object| {
@@ -385,7 +391,32 @@ fn one_mistake_in_fields_and_kinds() {
         ("background: 1, vars: (h: 2)".to_owned(), "write { \"h\": 2 }"),
         ("background: 1, output: \"a.png\"".to_owned(), "-o picture.png"),
         ("background: HosekSky(turbidity: 3)".to_owned(), "no sky by numbers"),
+        ("background: 1, effects: Effects(tone_map: ACES)".to_owned(), "a curve of that kind is `Filmic`"),
     ];
     let cases: Vec<(&str, &str)> = cases.iter().map(|(written, told)| (written.as_str(), *told)).collect();
     check(&cases, |top| format!("Scene({top}, objects: [{BALL}])"));
+}
+
+/// Files of other programs, and what is no text at all, are told as what they are.
+#[test]
+fn whole_files_of_other_programs() {
+    let told = |text: &str| {
+        let found = errors(text, &[]);
+        assert_eq!(found.len(), 1, "{text}: {found:?}");
+        format!("{}: {}", found[0].message, found[0].hint)
+    };
+    let gltf = "{ \"asset\": { \"version\": \"2.0\" }, \"accessors\": [], \"bufferViews\": [] }";
+    assert!(told(gltf).starts_with("this looks like glTF"), "{}", told(gltf));
+    let three = "{ \"metadata\": {}, \"geometries\": [], \"object\": { \"type\": \"Scene\" } }";
+    assert!(told(three).contains("three.js") && told(three).contains("GLB"), "{}", told(three));
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    for (name, bytes, hint) in [
+        ("room.ron", &b"BLENDER-v300\xff\x00"[..], "export a mesh"),
+        ("picture.ron", b"\x89PNG\r\n\x1a\n", "as a texture or a background"),
+    ] {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).expect("written");
+        let Err(LoadError::Invalid { diagnostics, .. }) = scene_format::load(&path) else { panic!("{name} is no scene") };
+        assert!(diagnostics.len() == 1 && diagnostics[0].hint.contains(hint), "{diagnostics:?}");
+    }
 }

@@ -162,6 +162,10 @@ impl Setter {
                 };
                 let near = suggest::nearest(name, names.iter().copied()).map(value::step);
                 fault.did_you_mean(near.as_deref(), str::to_owned);
+                if name.bytes().all(|byte| byte.is_ascii_digit()) {
+                    // jq and JavaScript say it so.
+                    fault.hint = format!("an item of a list is named by its number in brackets: `{group}[{name}]`");
+                }
                 Err(fault)
             }
             [only] => {

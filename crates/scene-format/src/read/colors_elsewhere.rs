@@ -1,9 +1,10 @@
 //! Colours and points in the ways of other programs that are one fault with one way: bytes, alpha, texts of numbers.
 
-use super::elsewhere::{Fields, named_color, numbers};
-use super::value::{hex_color, is_picture};
-use super::{Reader, plain};
+use super::elsewhere::{Fields, numbers};
+use super::value::{before_unit, expected_for, hex_color, is_picture};
+use super::{Reader, plain, shortened};
 use crate::codes;
+use crate::css_colors::{self, named_color};
 use crate::desc::is_texture;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::schema::{EnumDef, FieldDef, StructDef, Type};
@@ -77,7 +78,7 @@ impl Reader<'_> {
         let hex: String = values.iter().map(|value| format!("{:02x}", *value as u8)).collect();
         let message = format!("the channels of {} must be at most 1", plain(at.noun));
         let mut fault = Diagnostic::error(codes::OUT_OF_RANGE, item.span(), message)
-            .expected(super::value::expected_for(at, item))
+            .expected(expected_for(at, item))
             .hint(format!("channels go from 0 to 1; of values up to 255 write \"#{hex}\""));
         fault.edit = Some(Edit { span: item.span(), replacement: format!("\"#{hex}\"") });
         self.report(fault);
@@ -136,4 +137,108 @@ pub(super) fn in_braces(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
     let entries: Vec<String> =
         item.fields().take(MOST + 1).map(|(key, value)| format!("\"{}\": {}", key.text(), value.lexeme())).collect();
     (entries.len() <= MOST).then(|| format!("{{ {} }}", entries.join(", ")))
+}
+
+impl Reader<'_> {
+    /// `0xd03a2b`: a colour as other languages write it.
+    pub(super) fn hexadecimal(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<[f64; 3]> {
+        let mended = format!("\"#{}\"", &item.lexeme()[2..]);
+        let mut fault =
+            Diagnostic::error(codes::BAD_COLOR, item.span(), format!("{} cannot be one whole number", plain(at.noun)))
+                .expected(expected_for(at, item))
+                .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        None
+    }
+
+    /// Whether a text that is no colour here is one elsewhere, or a number, a var or a picture: no name of a texture.
+    pub(super) fn is_another_color(&self, text: &str) -> bool {
+        let word = text.trim();
+        let digits = word.trim_start_matches('#');
+        let hex = matches!(digits.len(), 3 | 6) && digits.bytes().all(|b| b.is_ascii_hexdigit());
+        let known = self.knows_var(word) || named_color(text).is_some() || css_colors::function(word).is_some();
+        known || hex || word.is_empty() || decode::number(text).is_finite() || is_picture(text)
+    }
+
+    pub(crate) fn text_color(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<[f64; 3]> {
+        let text = item.text();
+        if let Some(color) = hex_color(&text) {
+            return Some(color);
+        }
+        let mut fault = Diagnostic::error(
+            codes::BAD_COLOR,
+            item.span(),
+            format!("{} cannot be read from the text {}", plain(at.noun), shortened(item.lexeme())),
+        )
+        .expected(expected_for(at, item));
+        if self.knows_var(text.trim()) {
+            let mended = format!("\"={}\"", text.trim());
+            fault.hint = format!("write {mended}");
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            self.report(fault);
+            return None;
+        }
+        if let Some(mended) = numbers_in_text(item, 3) {
+            fault.hint = format!("write {mended}");
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            self.report(fault);
+            return None;
+        }
+        if let Some((hex, _)) = css_colors::function(text.trim()) {
+            fault.hint = format!("write \"{hex}\"");
+            fault.edit = Some(Edit { span: item.span(), replacement: format!("\"{hex}\"") });
+            self.report(fault);
+            return None;
+        }
+        if let Some(hex) = named_color(&text) {
+            fault.hint = format!("colours have no names here: write \"{hex}\"");
+            fault.edit = Some(Edit { span: item.span(), replacement: format!("\"{hex}\"") });
+            self.report(fault);
+            return None;
+        }
+        let digits = text.trim().trim_start_matches('#');
+        let hex = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_hexdigit());
+        let mended = match digits.len() {
+            6 if hex => Some(digits.to_owned()),
+            3 if hex => Some(digits.chars().flat_map(|c| [c, c]).collect()),
+            _ => None,
+        };
+        if let Some(digits) = mended {
+            fault.hint = format!("did you mean \"#{digits}\"?");
+            fault.edit = Some(Edit { span: item.span(), replacement: format!("\"#{digits}\"") });
+        } else if decode::number(&text).is_finite() {
+            fault.hint = "write the number without quotes".to_owned();
+            fault.edit = Some(Edit { span: item.span(), replacement: text.into_owned() });
+        } else if let Some(mended) = super::elsewhere::of_kelvins(&text, at) {
+            fault.hint = format!("the colour of that temperature is {mended}");
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else if let Some(number) = before_unit(&text) {
+            fault.hint = format!("numbers carry no unit: write {number}");
+            fault.edit = Some(Edit { span: item.span(), replacement: number.to_owned() });
+        } else if hex && text.starts_with('#') {
+            fault.hint = format!("this has {} digits; it needs two for each of red, green and blue", digits.len());
+        } else if is_picture(&text) && expected_for(at, item).contains("Texture") {
+            let replacement = match item.syntax() {
+                Syntax::Ron => format!("Texture(file: {})", item.lexeme()),
+                syntax => syntax.of_toml(format!("{{ Texture = {{ file = {} }} }}", item.lexeme())).into_owned(),
+            };
+            fault.hint = format!("a picture is written {}", shortened(&replacement));
+            fault.edit = Some(Edit { span: item.span(), replacement });
+        } else if is_picture(&text) && at.name == "background" {
+            let replacement = match item.syntax() {
+                Syntax::Ron => format!("Environment(file: {})", item.lexeme()),
+                syntax => syntax.of_toml(format!("{{ Environment = {{ file = {} }} }}", item.lexeme())).into_owned(),
+            };
+            fault.hint = format!("a picture of all directions is written {}", shortened(&replacement));
+            fault.edit = Some(Edit { span: item.span(), replacement });
+        } else {
+            fault.hint = match item.syntax() {
+                Syntax::Ron => "colours have no names here; red is (1, 0, 0) or \"#ff0000\"".to_owned(),
+                _ => "colours have no names here; red is [1, 0, 0] or \"#ff0000\"".to_owned(),
+            };
+        }
+        self.report(fault);
+        None
+    }
 }

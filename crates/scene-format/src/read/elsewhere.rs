@@ -5,6 +5,7 @@ use super::colors_elsewhere::{numbers_in_text, of_mesh};
 use super::shape_fields::one_ring;
 use super::value::{hex_color, is_picture};
 use crate::codes;
+use crate::css_colors::named_color;
 use crate::desc::{Material, is_texture};
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::expression::TEMPERATURES;
@@ -17,41 +18,6 @@ pub(super) fn of_kelvins(text: &str, at: &FieldDef) -> Option<String> {
     let kelvin = text.trim().strip_suffix(['K', 'k'])?.trim_end();
     let fits = at.rule.range.high != 1.0 && TEMPERATURES.contains(&decode::number(kelvin));
     fits.then(|| format!("\"=blackbody({kelvin})\""))
-}
-
-/// Colours by their names in CSS, for hints.
-const COLORS: [(&str, &str); 26] = [
-    ("red", "#ff0000"),
-    ("green", "#008000"),
-    ("lime", "#00ff00"),
-    ("blue", "#0000ff"),
-    ("white", "#ffffff"),
-    ("black", "#000000"),
-    ("gray", "#808080"),
-    ("grey", "#808080"),
-    ("silver", "#c0c0c0"),
-    ("yellow", "#ffff00"),
-    ("orange", "#ffa500"),
-    ("gold", "#ffd700"),
-    ("brown", "#a52a2a"),
-    ("purple", "#800080"),
-    ("violet", "#ee82ee"),
-    ("magenta", "#ff00ff"),
-    ("pink", "#ffc0cb"),
-    ("cyan", "#00ffff"),
-    ("turquoise", "#40e0d0"),
-    ("teal", "#008080"),
-    ("navy", "#000080"),
-    ("olive", "#808000"),
-    ("maroon", "#800000"),
-    ("beige", "#f5f5dc"),
-    ("salmon", "#fa8072"),
-    ("tomato", "#ff6347"),
-];
-
-/// The hexadecimal value of a colour's name.
-pub(crate) fn named_color(name: &str) -> Option<&'static str> {
-    COLORS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known)).map(|(_, hex)| *hex)
 }
 
 /// Numbers in the brackets of the syntax.
@@ -214,7 +180,11 @@ pub(super) fn number_elsewhere(item: Item<'_, '_>, at: &FieldDef) -> Option<Stri
     match item.name() {
         None | Some("Some" | "float" | "int" | "f32" | "f64" | "Number") => Some(only.lexeme().to_owned()),
         Some("deg" | "degrees") if at.rule.unit == "in degrees" => Some(only.lexeme().to_owned()),
-        Some("rad" | "radians") if at.rule.unit == "in degrees" => Some(degrees(value, only.lexeme())),
+        Some("rad" | "radians") if at.rule.unit == "in degrees" => {
+            // `radians(50)` is how other languages say 50 degrees: they take radians.
+            let fits = at.rule.range.contains(value.to_degrees());
+            Some(if fits { degrees(value, only.lexeme()) } else { only.lexeme().to_owned() })
+        }
         Some(_) => None,
     }
 }

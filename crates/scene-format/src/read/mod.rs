@@ -37,7 +37,6 @@ mod vector;
 
 pub(crate) use camera::are_cameras;
 pub(crate) use check::{Whole, scene};
-pub(crate) use elsewhere::named_color;
 pub(crate) use everyday::everyday;
 pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};

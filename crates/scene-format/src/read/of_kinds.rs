@@ -38,7 +38,7 @@ pub(super) const OBJECTS: Hints = &[
         "another scene comes by `Include(file: ..)`, geometry of other files by `Mesh(file: ..)`",
     ),
     (
-        &["arealight", "area", "quadlight", "rectlight", "rectanglelight", "meshlight", "lamp"],
+        &["arealight", "area", "quadlight", "rectlight", "rectanglelight", "rectarealight", "meshlight", "lamp"],
         "a lamp is an object that shines: `Rectangle(size: 1, material: Emissive(radiance: 5))`",
     ),
     (&["spherelight", "pointlight", "light", "sun", "spotlight"], "lights stand in `lights`, beside `objects`"),
@@ -87,12 +87,25 @@ pub(super) const MATERIALS: Hints = &[
     (&["pigment", "color", "rgb"], "a colour is the `albedo` of a material: Diffuse(albedo: (0.8, 0.2, 0.1))"),
     (&["null", "none", "invisible"], "leave the object out"),
     (
-        &["gold", "silver", "copper", "aluminum", "aluminium", "iron", "chromium", "chrome", "nickel", "titanium"],
-        "a metal is Conductor(metal: Gold), Silver, Copper, Aluminum, Iron, Chromium, Nickel, Titanium or Platinum",
-    ),
-    (
-        &["platinum", "brass", "bronze", "steel", "tin"],
-        "metals are Conductor(metal: Gold), Copper, Iron, Platinum ..: see `tracer explain Conductor`",
+        &[
+            "gold",
+            "silver",
+            "copper",
+            "aluminum",
+            "aluminium",
+            "iron",
+            "chromium",
+            "chrome",
+            "nickel",
+            "titanium",
+            "brass",
+            "platinum",
+            "steel",
+            "bronze",
+            "tin",
+        ],
+        "a metal is Conductor(metal: Gold), Silver, Copper, Aluminum, Iron, Chromium, Nickel, Titanium, Brass, \
+         Platinum or Steel",
     ),
     (&["thindielectric", "thintransparent"], "a pane is a thin `Box` of Transparent(ior: 1.5)"),
     (&["normalmap", "bumpmap", "bump", "displacement"], "surfaces have no bumps: they need to be in the mesh"),
@@ -238,6 +251,14 @@ const AMONG_MATERIALS: Hints = &[
     ),
 ];
 
+const TONE_MAPS: Hints = &[
+    (
+        &["aces", "acesfilmic", "acesfilmictonemapping", "hable", "uncharted", "uncharted2", "film", "reinhard"],
+        "a curve of that kind is `Filmic`; `AgX` lets bright colours go to white",
+    ),
+    (&["linear", "standard", "srgb", "raw", "clamp", "gamma", "off"], "without a curve it is `None`: clipped, in sRGB"),
+];
+
 const BACKGROUNDS: Hints = &[
     (
         &["none", "null", "nil", "transparent", "off", "alpha", "clear", "nothing", "empty"],
@@ -298,6 +319,7 @@ pub(super) fn elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static st
         "light" => AMONG_LIGHTS,
         "material" => AMONG_MATERIALS,
         "background" => BACKGROUNDS,
+        "tone map" => TONE_MAPS,
         _ => return None,
     };
     let found = rows.iter().find(|(names, _)| names.contains(&&*plain)).map(|(_, way)| *way);

@@ -4,7 +4,7 @@ use crate::schema::StructDef;
 
 /// Ours, and theirs. A word may stand for several: which one is said by the value.
 const SYNONYMS: &[(&str, &[&str])] = &[
-    ("objects", &["children", "items", "members", "contents", "shapes"]),
+    ("objects", &["children", "items", "members", "contents", "shapes", "of", "operands", "parts"]),
     (
         "position",
         &[

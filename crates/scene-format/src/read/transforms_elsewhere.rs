@@ -64,7 +64,7 @@ impl Reader<'_> {
         let mended = format!("[{}]", all.join(", "));
         let message = format!("{} are lists of transforms, one list for each copy", super::plain(at.noun));
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
-            .expected(super::value::expected_for(at, item))
+            .expected("[[a transform, ..], [a transform, ..]]")
             .hint(format!("write {mended}"));
         fault.edit = Some(Edit { span: item.span(), replacement: mended });
         self.report(fault);

@@ -1,6 +1,6 @@
 //! Numbers, texts, paths and lists.
 
-use super::{Reader, elsewhere, plain, shortened};
+use super::{Reader, elsewhere, plain};
 use crate::codes;
 use crate::desc::PatternWords;
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
@@ -125,7 +125,7 @@ fn with_unit(words: String, at: &FieldDef) -> String {
 }
 
 /// The number of a text that is one with a short word after it: `100 W`.
-fn before_unit(text: &str) -> Option<&str> {
+pub(super) fn before_unit(text: &str) -> Option<&str> {
     let text = text.trim();
     let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | '_' | ' '));
     let number = text[..text.len() - unit.len()].trim_end();
@@ -499,102 +499,4 @@ pub(super) fn is_picture(text: &str) -> bool {
 /// The sRGB decoding of IEC 61966-2-1, by `libm`, so that it gives the same bits everywhere.
 pub(crate) fn linear_from_srgb(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
-}
-
-impl Reader<'_> {
-    /// `0xd03a2b`: a colour as other languages write it.
-    pub(super) fn hexadecimal(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<[f64; 3]> {
-        let mended = format!("\"#{}\"", &item.lexeme()[2..]);
-        let mut fault =
-            Diagnostic::error(codes::BAD_COLOR, item.span(), format!("{} cannot be one whole number", plain(at.noun)))
-                .expected(expected_for(at, item))
-                .hint(format!("write {mended}"));
-        fault.edit = Some(Edit { span: item.span(), replacement: mended });
-        self.report(fault);
-        None
-    }
-
-    /// Whether a text that is no colour here is one elsewhere, or a number, a var or a picture: no name of a texture.
-    pub(super) fn is_another_color(&self, text: &str) -> bool {
-        let word = text.trim();
-        let digits = word.trim_start_matches('#');
-        let hex = matches!(digits.len(), 3 | 6) && digits.bytes().all(|b| b.is_ascii_hexdigit());
-        let known = self.knows_var(word) || elsewhere::named_color(text).is_some();
-        known || hex || word.is_empty() || decode::number(text).is_finite() || is_picture(text)
-    }
-
-    pub(crate) fn text_color(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<[f64; 3]> {
-        let text = item.text();
-        if let Some(color) = hex_color(&text) {
-            return Some(color);
-        }
-        let mut fault = Diagnostic::error(
-            codes::BAD_COLOR,
-            item.span(),
-            format!("{} cannot be read from the text {}", plain(at.noun), shortened(item.lexeme())),
-        )
-        .expected(expected_for(at, item));
-        if self.knows_var(text.trim()) {
-            let mended = format!("\"={}\"", text.trim());
-            fault.hint = format!("write {mended}");
-            fault.edit = Some(Edit { span: item.span(), replacement: mended });
-            self.report(fault);
-            return None;
-        }
-        if let Some(mended) = super::colors_elsewhere::numbers_in_text(item, 3) {
-            fault.hint = format!("write {mended}");
-            fault.edit = Some(Edit { span: item.span(), replacement: mended });
-            self.report(fault);
-            return None;
-        }
-        if let Some(hex) = elsewhere::named_color(&text) {
-            fault.hint = format!("colours have no names here: write \"{hex}\"");
-            fault.edit = Some(Edit { span: item.span(), replacement: format!("\"{hex}\"") });
-            self.report(fault);
-            return None;
-        }
-        let digits = text.trim().trim_start_matches('#');
-        let hex = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_hexdigit());
-        let mended = match digits.len() {
-            6 if hex => Some(digits.to_owned()),
-            3 if hex => Some(digits.chars().flat_map(|c| [c, c]).collect()),
-            _ => None,
-        };
-        if let Some(digits) = mended {
-            fault.hint = format!("did you mean \"#{digits}\"?");
-            fault.edit = Some(Edit { span: item.span(), replacement: format!("\"#{digits}\"") });
-        } else if decode::number(&text).is_finite() {
-            fault.hint = "write the number without quotes".to_owned();
-            fault.edit = Some(Edit { span: item.span(), replacement: text.into_owned() });
-        } else if let Some(mended) = elsewhere::of_kelvins(&text, at) {
-            fault.hint = format!("the colour of that temperature is {mended}");
-            fault.edit = Some(Edit { span: item.span(), replacement: mended });
-        } else if let Some(number) = before_unit(&text) {
-            fault.hint = format!("numbers carry no unit: write {number}");
-            fault.edit = Some(Edit { span: item.span(), replacement: number.to_owned() });
-        } else if hex && text.starts_with('#') {
-            fault.hint = format!("this has {} digits; it needs two for each of red, green and blue", digits.len());
-        } else if is_picture(&text) && expected_for(at, item).contains("Texture") {
-            let replacement = match item.syntax() {
-                Syntax::Ron => format!("Texture(file: {})", item.lexeme()),
-                syntax => syntax.of_toml(format!("{{ Texture = {{ file = {} }} }}", item.lexeme())).into_owned(),
-            };
-            fault.hint = format!("a picture is written {}", shortened(&replacement));
-            fault.edit = Some(Edit { span: item.span(), replacement });
-        } else if is_picture(&text) && at.name == "background" {
-            let replacement = match item.syntax() {
-                Syntax::Ron => format!("Environment(file: {})", item.lexeme()),
-                syntax => syntax.of_toml(format!("{{ Environment = {{ file = {} }} }}", item.lexeme())).into_owned(),
-            };
-            fault.hint = format!("a picture of all directions is written {}", shortened(&replacement));
-            fault.edit = Some(Edit { span: item.span(), replacement });
-        } else {
-            fault.hint = match item.syntax() {
-                Syntax::Ron => "colours have no names here; red is (1, 0, 0) or \"#ff0000\"".to_owned(),
-                _ => "colours have no names here; red is [1, 0, 0] or \"#ff0000\"".to_owned(),
-            };
-        }
-        self.report(fault);
-        None
-    }
 }

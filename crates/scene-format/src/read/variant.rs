@@ -3,6 +3,7 @@
 use super::hints::{kind_elsewhere, other_kind};
 use super::{Fields, Reader, describe, plain};
 use crate::codes;
+use crate::desc::Metal;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{Content, EnumDef, Type, VariantDef};
 use crate::suggest;
@@ -176,10 +177,22 @@ impl Reader<'_> {
             span,
             format!("`{}` is not a kind of {}", super::shortened(name), of_kind(def)),
         )
-        .expected(choices(def, syntax));
+        .expected(match (def.noun, syntax) {
+            // Which is also a colour alone.
+            ("background", Syntax::Ron) => format!("a colour, (r, g, b), or {}", choices(def, syntax)),
+            ("background", _) => format!("a colour, [r, g, b], or {}", choices(def, syntax)),
+            _ => choices(def, syntax),
+        });
         let quoted = syntax != Syntax::Ron && span.end - span.start == name.len() as u32 + 2;
         let names = def.variants.iter().map(|variant| variant.name);
         let elsewhere = kind_elsewhere(name, def);
+        if let Some(metal) = inner.and_then(|inner| metal_of(inner, def)) {
+            let mended = format!("Conductor(metal: {metal})");
+            fault.hint = format!("write {mended}");
+            fault.edit = inner.map(|inner| Edit { span: Span { end: inner.span().end, ..span }, replacement: mended });
+            self.report(fault);
+            return None;
+        }
         // The nearest kind of ours, with other fields than theirs: reading on would tell of every one of them.
         if let Some(variant) = elsewhere.and_then(|word| def.variant(word))
             && let Some(needs) = needs(variant, inner, syntax)
@@ -374,6 +387,14 @@ pub(super) static NO_FIELD: crate::schema::FieldDef = crate::schema::FieldDef {
     rule: crate::schema::Rule::ANY,
     default: None,
 };
+
+/// The metal that a material of RON has in its brackets alone: `Metal(Gold)`.
+fn metal_of<'s>(inner: Item<'_, 's>, def: &'static EnumDef) -> Option<&'s str> {
+    let mut children = inner.children();
+    let (only, None) = (children.next()?, children.next()) else { return None };
+    let is_metal = inner.syntax() == Syntax::Ron && only.kind() == Kind::Word && def.noun == "material";
+    (is_metal && Metal::DEF.variant(only.lexeme()).is_some()).then(|| only.lexeme())
+}
 
 /// All that a choice may be, as it is written.
 pub(crate) fn choices(def: &'static EnumDef, syntax: Syntax) -> String {

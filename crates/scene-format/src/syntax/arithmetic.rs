@@ -118,6 +118,16 @@ pub(super) fn of_languages(line: &str) -> Option<(String, usize)> {
     (body != text && value.is_ok()).then_some((body, text.len()))
 }
 
+/// `if a then b else c` as an expression, and its length.
+pub(super) fn conditional(line: &str) -> Option<(String, usize)> {
+    let inner = line.strip_prefix("if ")?;
+    let (condition, rest) = inner.split_once(" then ")?;
+    let (yes, rest) = rest.split_once(" else ")?;
+    let no = &rest[..expression_ahead(rest)?];
+    let body = format!("if({}, {}, {})", condition.trim(), yes.trim(), no.trim());
+    is_expression(&body).then(|| (body, line.len() - rest.len() + no.len()))
+}
+
 /// Whether a comparison follows on a name whose line chooses by it: ` > 1 ? 2 : 3`.
 pub(super) fn chooses(after: &str) -> bool {
     let is_comparison = after.trim_start_matches(' ').starts_with(['<', '>', '?', '!', '=']);

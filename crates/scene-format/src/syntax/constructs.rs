@@ -1,8 +1,9 @@
 //! What other languages have in the middle of a scene: loops, and blocks of POV-Ray. Each is told once, with the way
 //! here, and passed over.
 
-use super::{Syntax, declarations};
+use super::{Syntax, arithmetic, declarations};
 use crate::codes;
+use crate::css_colors;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 
 /// A construct may have this many bytes: a file of opening brackets must not take quadratic time.
@@ -38,7 +39,8 @@ pub(super) fn at_beginning(rest: &str, syntax: Syntax) -> Option<Construct> {
     if !rest.starts_with(|c: char| c.is_ascii_lowercase()) {
         return None;
     }
-    loop_of(rest, syntax).or_else(|| block(rest, syntax)).or_else(|| declaration(rest, syntax))
+    let found = loop_of(rest, syntax).or_else(|| block(rest, syntax)).or_else(|| declaration(rest, syntax));
+    found.or_else(|| color(rest)).or_else(|| conditional(rest))
 }
 
 /// `for i in 0..8 { .. }`, `while (..) { .. }`, and the end of a comprehension: `for i in range(8)`.
@@ -77,6 +79,34 @@ pub(super) fn loop_of(rest: &str, syntax: Syntax) -> Option<Construct> {
         expected: "items made by a rule, or copies by `placements`",
         hint: format!("write {form}; in its items \"={index}\" counts from 0"),
         mended: None,
+    })
+}
+
+/// `hsl(200, 50%, 50%)`
+pub(super) fn color(rest: &str) -> Option<Construct> {
+    let begins = ["hsl", "hsv", "hsb"].iter().any(|name| rest.starts_with(name));
+    let (hex, length) = begins.then(|| css_colors::function(rest)).flatten()?;
+    Some(Construct {
+        length,
+        head: length,
+        message: format!("colours are not written `{}(..)` here", word(rest)),
+        expected: "red, green and blue from 0 to 1, or \"#rrggbb\"",
+        hint: format!("write \"{hex}\""),
+        mended: Some(format!("\"{hex}\"")),
+    })
+}
+
+/// `if a then b else c`
+fn conditional(rest: &str) -> Option<Construct> {
+    let line = rest.starts_with("if ").then(|| super::line_ahead(rest, 0))?;
+    let (body, length) = arithmetic::conditional(line)?;
+    Some(Construct {
+        length,
+        head: length,
+        message: "an expression stands between quotes".to_owned(),
+        expected: "a text that begins with `=`",
+        hint: format!("write \"={body}\""),
+        mended: Some(format!("\"={body}\"")),
     })
 }
 
@@ -166,6 +196,46 @@ fn block(rest: &str, syntax: Syntax) -> Option<Construct> {
         hint,
         mended,
     })
+}
+
+/// `Material "diffuse" "rgb reflectance" [ .5 .5 .5 ]`, a directive of pbrt with its parameters.
+pub(super) fn directive_of_pbrt(rest: &str, syntax: Syntax) -> Option<Construct> {
+    let word = word(rest);
+    let (_, ron, toml) = PBRT.iter().find(|(names, ..)| names.contains(&word))?;
+    let mut length = word.len();
+    let mut texts = 0;
+    while length < LONGEST {
+        let after = &rest[length..];
+        let blank = after.len() - after.trim_start().len();
+        let next = &after[blank..];
+        length += match next.bytes().next() {
+            Some(b'"') => {
+                texts += 1;
+                blank + 2 + next[1..].find(['"', '\n']).filter(|end| next[1 + end..].starts_with('"'))?
+            }
+            Some(b'[') if texts > 0 => blank + closed(next, 0)?,
+            Some(b'0'..=b'9' | b'.' | b'-') if texts > 0 && !after[..blank].contains('\n') => {
+                blank + next.find(|c: char| c.is_whitespace() || matches!(c, ',' | ')' | ']')).unwrap_or(next.len())
+            }
+            _ => break,
+        };
+    }
+    Some(Construct {
+        length,
+        head: length.min(super::line_ahead(rest, 0).trim_end().len()),
+        message: format!("this looks like pbrt: `{word} \"..\"`"),
+        expected: match syntax {
+            Syntax::Ron => "Name(field: value, ..)",
+            Syntax::Toml => "{ Name = { field = value } }",
+            Syntax::Json => "{ \"Name\": { \"field\": value } }",
+        },
+        hint: match syntax {
+            Syntax::Ron => format!("write {ron}"),
+            _ => format!("write {}", syntax.of_toml(*toml)),
+        },
+        mended: None,
+    })
+    .filter(|_| texts > 0)
 }
 
 /// `let x = 3;`
@@ -265,6 +335,42 @@ const POV: &[Block] = &[
         "material = { Diffuse = { albedo = [r, g, b] } }, or another kind of material",
     ),
     (&["background", "sky_sphere"], "background: (r, g, b)", "background = [r, g, b]"),
+];
+
+/// Directives of pbrt.
+const PBRT: &[Block] = &[
+    (
+        &["Material", "MakeNamedMaterial", "NamedMaterial"],
+        "Diffuse(albedo: (r, g, b)), or another kind of material",
+        "{ Diffuse = { albedo = [r, g, b] } }, or another kind of material",
+    ),
+    (
+        &["Shape"],
+        "Sphere(center: (x, y, z), radius: ..), or another shape",
+        "{ Sphere = { center = [x, y, z], radius = .. } }, or another shape",
+    ),
+    (
+        &["AreaLightSource"],
+        "the shape with `material: Emissive(radiance: ..)`",
+        "the shape with `material = { Emissive = { radiance = .. } }`",
+    ),
+    (
+        &["LightSource"],
+        "SphereLight(center: (x, y, z), radius: .., power: ..) in `lights`",
+        "{ SphereLight = { center = [x, y, z], radius = .., power = .. } } in `lights`",
+    ),
+    (
+        &["Texture"],
+        "Texture(file: \"picture.png\") where its colour stands",
+        "{ Texture = { file = \"picture.png\" } } where its colour stands",
+    ),
+    (
+        &["Camera"],
+        "camera: Camera(position: (x, y, z), look_at: (x, y, z), fov: 40)",
+        "camera = { position = [x, y, z], look_at = [x, y, z], fov = 40 }",
+    ),
+    (&["Film"], "image: Image(width: .., height: ..)", "image = { width = .., height = .. }"),
+    (&["Sampler", "Integrator"], "render: Render(samples: ..)", "render = { samples = .. }"),
 ];
 
 /// What is said of `#declare` and its like, in RON.

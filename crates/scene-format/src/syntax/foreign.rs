@@ -6,7 +6,74 @@ use crate::diagnostic::{Diagnostic, Edit, Span};
 
 /// What a wrong text is as a whole; asked only where it is wrong. What has an edit counts where that leaves less wrong.
 pub(crate) fn whole(text: &str, syntax: Syntax) -> Option<Diagnostic> {
-    conflict(text).or_else(|| language(text, syntax)).or_else(|| wide_signs(text, syntax))
+    let other = conflict(text).or_else(|| of_json(text, syntax)).or_else(|| language(text, syntax));
+    other.or_else(|| wide_signs(text, syntax)).or_else(|| without_brackets(text, syntax))
+}
+
+/// Scenes of other programs in JSON, told by names that ours never have.
+fn of_json(text: &str, syntax: Syntax) -> Option<Diagnostic> {
+    // (what they are called, the names that tell them, what to do)
+    const OTHERS: [(&str, &[&str], &str); 2] = [
+        (
+            "glTF",
+            &["asset", "accessors", "bufferViews"],
+            "a glTF file is read as a mesh: name it .gltf, and write { \"Mesh\": { \"file\": \"model.gltf\" } } in `objects`",
+        ),
+        (
+            "three.js",
+            &["metadata", "geometries", "object"],
+            "export the model as GLB, and write { \"Mesh\": { \"file\": \"model.glb\" } } in `objects`",
+        ),
+    ];
+    let start = text.len() - text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').len();
+    if !text[start..].starts_with('{') {
+        return None;
+    }
+    let has = |name: &&str| {
+        let name = format!("\"{name}\"");
+        text.match_indices(&name).any(|(at, _)| text[at + name.len()..].trim_start().starts_with(':'))
+    };
+    let (name, _, hint) = OTHERS.iter().find(|(_, names, _)| names.iter().all(has))?;
+    let length = text[start..].lines().next().map_or(0, |line| line.trim_end().len());
+    let span = Span { source: 0, start: start as u32, end: (start + length) as u32 };
+    let message = format!("this looks like {name}, not a scene in {}", syntax.name());
+    let fault = Diagnostic::error(codes::OTHER_LANGUAGE, span, message);
+    Some(fault.expected("a scene in RON (.ron), TOML (.toml) or JSON (.json)").hint(*hint))
+}
+
+/// The fields of a scene in RON without the brackets around them, or `Scene: (`.
+fn without_brackets(text: &str, syntax: Syntax) -> Option<Diagnostic> {
+    // Longer ones are made by programs, and an edit would hold all of it.
+    const LONGEST: usize = 1 << 20;
+    let mut from = text.len() - text.trim_start_matches('\u{feff}').len();
+    for line in text[from..].split_inclusive('\n') {
+        if !line.trim().is_empty() && !line.trim().starts_with("//") {
+            break;
+        }
+        from += line.len();
+    }
+    from += text[from..].len() - text[from..].trim_start().len();
+    let body = text[from..].trim_end();
+    let name = body.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).next().filter(|name| !name.is_empty())?;
+    let after = body[name.len()..].trim_start().strip_prefix(':')?;
+    if syntax != Syntax::Ron || text.len() > LONGEST {
+        return None;
+    }
+    let span = |start: usize, end: usize| Span { source: 0, start: start as u32, end: end as u32 };
+    let colon = from + body.len() - after.len();
+    let (at, message, hint, edit) = if name.eq_ignore_ascii_case("scene") && after.trim_start().starts_with('(') {
+        let bracket = colon + after.len() - after.trim_start().len();
+        let edit = Edit { span: span(from, bracket), replacement: "Scene".to_owned() };
+        (span(from, colon), "a kind has no colon behind it", "write `Scene(`", edit)
+    } else {
+        let edit = Edit { span: span(from, from + body.len()), replacement: format!("(\n{body}\n)") };
+        let at = span(from, from + name.len());
+        (at, "the fields of a scene stand in brackets", "write `(` before the first one and `)` after the last one", edit)
+    };
+    let mut fault =
+        Diagnostic::error(codes::UNEXPECTED_CHARACTER, at, message).expected("(version: 1, objects: [..])").hint(hint);
+    fault.edit = Some(edit);
+    Some(fault)
 }
 
 /// Brackets, colons and the like as Chinese and Japanese keyboards write them, outside of texts and comments: told and

@@ -320,11 +320,13 @@ impl<'p> Parser<'p> {
     fn angle_brackets(&mut self, start: usize) -> bool {
         let name = self.word_length();
         let Some((length, numbers)) = arithmetic::angle_brackets(&self.rest()[name..]) else { return false };
-        let mended = format!("[{numbers}]");
+        let one = number_kind(numbers).is_some();
+        let mended = if one { numbers.to_owned() } else { format!("[{numbers}]") };
         self.at += name + length;
         let found = self.span(start, self.at);
-        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "vectors stand in square brackets")
-            .expected("[x, y, z]")
+        let message = if one { "a number stands without brackets" } else { "vectors stand in square brackets" };
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message)
+            .expected(if one { "a number" } else { "[x, y, z]" })
             .hint(format!("write {mended}"));
         fault.edit = Some(Edit { span: found, replacement: mended });
         self.broken(start, fault);

@@ -1,7 +1,7 @@
 //! Calls of other languages where a value stands: `THREE.Vector3(0, 1, 6)`, `np.array([0, 1, 6])`, `new Sphere(..)`.
 
-use super::arithmetic;
 use super::ron::Parser;
+use super::{Syntax, arithmetic, constructs};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::syntax::ron_literal::number_kind;
@@ -50,6 +50,10 @@ impl Parser<'_> {
     /// A call of another language, which is reported: a vector is read without its name, a kind without what stands
     /// before it.
     pub(super) fn call_elsewhere(&mut self, start: usize) -> bool {
+        if let Some(found) = constructs::directive_of_pbrt(&self.text[start..], Syntax::Ron) {
+            self.pass_over(found);
+            return true;
+        }
         let line = super::line_ahead(self.text, start);
         let Some(Call { name: [begin, end], brackets: [open, after] }) = call(line) else { return false };
         // `Math.sqrt(2)` is no vector of one number.

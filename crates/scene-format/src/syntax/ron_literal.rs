@@ -232,11 +232,13 @@ impl Parser<'_> {
     /// `<0, 1, 6>` and `rgb<0.8, 0.2, 0.1>`, the name beginning at `start`, which is reported.
     pub(super) fn angle_brackets(&mut self, start: usize) -> bool {
         let Some((length, numbers)) = arithmetic::angle_brackets(self.rest()) else { return false };
-        let mended = format!("({numbers})");
+        let one = number_kind(numbers).is_some();
+        let mended = if one { numbers.to_owned() } else { format!("({numbers})") };
         self.at += length;
         let found = self.span(start, self.at);
-        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, "vectors stand in round brackets")
-            .expected("(x, y, z)")
+        let message = if one { "a number stands without brackets" } else { "vectors stand in round brackets" };
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message)
+            .expected(if one { "a number" } else { "(x, y, z)" })
             .hint(format!("write {mended}"));
         fault.edit = Some(Edit { span: found, replacement: mended });
         self.sink.push(fault);

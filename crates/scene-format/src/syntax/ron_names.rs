@@ -87,7 +87,7 @@ impl Parser<'_> {
         self.pass_over(found);
     }
 
-    fn pass_over(&mut self, found: constructs::Construct) {
+    pub(super) fn pass_over(&mut self, found: constructs::Construct) {
         let (start, end) = (self.at, self.at + found.length);
         let fault = found.fault(start, |from, to| self.span(from, to));
         self.sink.push(fault);
