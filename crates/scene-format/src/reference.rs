@@ -13,8 +13,8 @@ use std::fmt::Write;
 const INTRODUCTION: &str = "\
 # The scene language
 
-<!-- Generated from the types in crates/scene-format/src/desc by UPDATE_EXPECT=1 cargo test -p scene-format; a test fails
-     when it differs. -->
+<!-- Generated from the types in crates/scene-format/src/desc by UPDATE_EXPECT=1 cargo test -p scene-format; a test
+     fails when it differs. -->
 
 A scene is one file, in RON (`.ron`), TOML (`.toml`) or JSON (`.json`), with the same words in all three:
 

@@ -416,7 +416,9 @@ fn whole_files_of_other_programs() {
     ] {
         let path = folder.join(name);
         std::fs::write(&path, bytes).expect("written");
-        let Err(LoadError::Invalid { diagnostics, .. }) = scene_format::load(&path) else { panic!("{name} is no scene") };
+        let Err(LoadError::Invalid { diagnostics, .. }) = scene_format::load(&path) else {
+            panic!("{name} is no scene")
+        };
         assert!(diagnostics.len() == 1 && diagnostics[0].hint.contains(hint), "{diagnostics:?}");
     }
 }

@@ -2,10 +2,10 @@
 
 use super::{Color, LightGroup, Vec3};
 use crate::codes;
+use crate::css_colors::named_color;
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
-use crate::css_colors::named_color;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};

@@ -17,7 +17,8 @@ fn of_json(text: &str, syntax: Syntax) -> Option<Diagnostic> {
         (
             "glTF",
             &["asset", "accessors", "bufferViews"],
-            "a glTF file is read as a mesh: name it .gltf, and write { \"Mesh\": { \"file\": \"model.gltf\" } } in `objects`",
+            "a glTF file is read as a mesh: name it .gltf, and write { \"Mesh\": { \"file\": \"model.gltf\" } } in \
+             `objects`",
         ),
         (
             "three.js",
@@ -68,7 +69,12 @@ fn without_brackets(text: &str, syntax: Syntax) -> Option<Diagnostic> {
     } else {
         let edit = Edit { span: span(from, from + body.len()), replacement: format!("(\n{body}\n)") };
         let at = span(from, from + name.len());
-        (at, "the fields of a scene stand in brackets", "write `(` before the first one and `)` after the last one", edit)
+        (
+            at,
+            "the fields of a scene stand in brackets",
+            "write `(` before the first one and `)` after the last one",
+            edit,
+        )
     };
     let mut fault =
         Diagnostic::error(codes::UNEXPECTED_CHARACTER, at, message).expected("(version: 1, objects: [..])").hint(hint);
