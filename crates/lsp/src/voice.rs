@@ -1,7 +1,7 @@
 //! What is said to the editor: texts of JSON, written in one go.
 //!
-//! In the tree of values that `lsp-server` sends every place of a long answer is three maps with keys of their own, which
-//! takes much longer than to write them.
+//! In the tree of values that `lsp-server` sends every place of a long answer is three maps with keys of their own,
+//! which takes much longer than to write them.
 
 use crate::Error;
 use lsp_server::{Message, RequestId, ResponseError};

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-/// A path without `.` and `..`: `golden/../room.ron` is `room.ron`. Where a link makes that another file, the path as it
-/// is.
+/// A path without `.` and `..`: `golden/../room.ron` is `room.ron`. Where a link makes that another file, the path as
+/// it is.
 pub fn host_path(path: &Path) -> PathBuf {
     let plain = scene_format::plain_path(path);
     // Of its folder: the file itself may be a link, and need not be there.
