@@ -36,13 +36,15 @@ pub struct MeshData {
     /// The colours of all vertices, as many as `positions`; `None` where the file has none, or where nobody wanted them
     /// ([`Wanted`](crate::Wanted)).
     pub colors: Option<VertexColors>,
-    /// The MTL materials that triangles use, in order of first use. File names of textures are complete: they start at
-    /// the folder of the MTL file as this mesh's path gave it, and must not be joined to the scene's folder again.
+    /// The materials of the file, or of its MTL files, that triangles use, in order of first use. File names of textures
+    /// are complete: they start at the folder of the MTL file as this mesh's path gave it, and must not be joined to the
+    /// scene's folder again. A picture within a glTF file is called as [`file_of`](crate::file_of) says.
     pub materials: Vec<NamedMaterial>,
     /// Index into `materials` per triangle, or [`NO_INDEX`]; empty: all have the default.
     pub triangle_material: Vec<u32>,
-    /// What the file says of MTL, where its triangles use that: what `materials` and `triangle_material` were made of.
-    pub mtl: MtlNames,
+    /// What the file names of materials, where its triangles use them: what `materials` and `triangle_material` were made
+    /// of.
+    pub material_names: MaterialNames,
     /// Further files that were read for it: MTL files, buffers of glTF.
     pub libraries: Vec<PathBuf>,
     /// Recoverable oddities: at most one `W0510` for the mesh file, one `W0511` for its materials, and one
@@ -50,12 +52,13 @@ pub struct MeshData {
     pub warnings: Diagnostics,
 }
 
-/// What an OBJ file says of materials.
+/// What a file names of materials.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct MtlNames {
+pub struct MaterialNames {
     /// The names of MTL files as it has them (`mtllib`).
     pub libraries: Vec<String>,
-    /// The names of materials that faces use, in order of first use, and whether the MTL files have them.
+    /// The names of materials that faces use, in order of first use, and whether the MTL files have them; of glTF their
+    /// numbers.
     pub used: Vec<(String, bool)>,
 }
 

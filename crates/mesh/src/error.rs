@@ -163,7 +163,9 @@ impl MeshError {
                     false => "export it without this extension",
                 };
                 Diagnostic::error(codes::GLTF_EXTENSION, span, message)
-                    .expected("a glTF file that requires no extension but KHR_mesh_quantization")
+                    .expected(
+                        "a glTF file that requires no extension but KHR_mesh_quantization and EXT_mesh_gpu_instancing",
+                    )
                     .hint(hint)
                     .at_line(path, 0)
             }

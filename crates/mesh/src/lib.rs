@@ -32,7 +32,9 @@ mod files;
 mod format;
 mod gltf;
 mod inline;
+mod materials;
 mod mtl;
+mod notes;
 mod obj;
 mod oddities;
 mod off;
@@ -48,9 +50,9 @@ pub mod shapes;
 
 pub use arrays::MeshArrays;
 pub use colors::{ColorValues, VertexColors, Wanted};
-pub use data::{MAX_COORDINATE, MeshData, MtlNames, NO_INDEX};
+pub use data::{MAX_COORDINATE, MaterialNames, MeshData, NO_INDEX};
 pub use error::{MeshError, Place};
-pub use files::{FileError, Files, read_regular_file};
+pub use files::{FileError, Files, file_of, read_regular_file};
 pub use format::MeshFormat;
 pub use inline::mesh_of;
 

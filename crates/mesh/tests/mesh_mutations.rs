@@ -176,8 +176,14 @@ const GLTF: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nod
   "sparse": {"count": 2, "indices": {"bufferView": 2, "componentType": 5121}, "values": {"bufferView": 3}}}],
 "bufferViews": [{"buffer": 0, "byteLength": 128, "byteStride": 32}, {"buffer": 0, "byteOffset": 128, "byteLength": 6},
  {"buffer": 0, "byteOffset": 134, "byteLength": 2}, {"buffer": 0, "byteOffset": 136, "byteLength": 6}],
-"buffers": [{"byteLength": 142, "uri": "data:application/octet-stream;base64,DATA"}],
-"materials": [{"name": "m"}], "extensionsUsed": ["KHR_mesh_quantization", "KHR_materials_ior"]}"#;
+"materials": [{"name": "m", "emissiveFactor": [0, 0, 0], "pbrMetallicRoughness": {"metallicFactor": 0,
+  "roughnessFactor": 1, "baseColorFactor": [0.5, 1, 1, 1], "baseColorTexture": {"index": 0, "texCoord": 0,
+   "extensions": {"KHR_texture_transform": {"offset": [0.5, 0], "rotation": 1, "scale": [2, 2]}}}},
+  "extensions": {"KHR_materials_ior": {"ior": 1.5}, "KHR_materials_transmission": {"transmissionFactor": 0},
+   "KHR_materials_volume": {"attenuationDistance": 1}, "KHR_materials_emissive_strength": {"emissiveStrength": 1}}}],
+"textures": [{"source": 0, "sampler": 0}], "samplers": [{"wrapS": 33071, "magFilter": 9728}],
+"images": [{"bufferView": 3, "mimeType": "image/png"}],
+"buffers": [{"byteLength": 142, "uri": "data:application/octet-stream;base64,DATA"}], "extensionsUsed": ["KHR_mesh_quantization", "KHR_materials_ior"]}"#;
 
 fn gltf_buffer() -> Vec<u8> {
     let square = [[0.0_f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

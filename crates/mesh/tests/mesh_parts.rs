@@ -34,7 +34,7 @@ fn a_part_is_what_a_file_of_it_alone_would_be() {
     assert_eq!((wheel.positions.len(), wheel.triangles.len(), wheel.uvs.len(), wheel.normals.len()), (4, 2, 1, 0));
     // That there are no colours is of the part, too.
     let roof = part(CAR, "roof").expect("a mesh");
-    assert!(roof.colors.is_none() && roof.uvs.is_empty() && roof.mtl.used == [("rubber".to_owned(), false)]);
+    assert!(roof.colors.is_none() && roof.uvs.is_empty() && roof.material_names.used == [("rubber".to_owned(), false)]);
     assert_eq!(roof.normals, [[0.0, 0.0, 1.0]]);
     // All there is, in parts.
     let whole = parse(CAR.as_bytes(), MeshFormat::Obj, Path::new("m.obj")).expect("a mesh");

@@ -293,9 +293,9 @@ impl<'a> Buffers<'a> {
                     return Err(Fault::new(at, format!("{label} has no `uri`"), expected));
                 }
             },
-            Some(uri) => match uri.get(..5).filter(|scheme| scheme.eq_ignore_ascii_case("data:")) {
-                Some(_) => decoded(&uri, at, &label)?,
-                None => self.file(&uri, at, &label)?,
+            Some(uri) => match super::is_data(&uri) {
+                true => Bytes::Own(Arc::new(decoded(&uri, at, &label)?)),
+                false => self.file(&uri, at, &label)?,
             },
         };
         let found = bytes.all().len();
@@ -327,6 +327,14 @@ impl<'a> Buffers<'a> {
         let bytes = Bytes::Own(Arc::new(bytes));
         self.of_files.insert(path, bytes.clone());
         Ok(bytes)
+    }
+
+    /// All bytes of a view.
+    pub(super) fn view(&mut self, view: u32, named_at: usize) -> Result<Vec<u8>, Box<Fault>> {
+        let Element { value, .. } = self.document.element::<View>(List::BufferViews, view, named_at)?;
+        let run = self.run(view, 0, 1, value.byte_length, (named_at, "the picture"))?;
+        let bytes = run.from(0).get(..value.byte_length as usize);
+        Ok(bytes.unwrap_or_default().to_vec())
     }
 
     /// So many elements of so many bytes from a place of a view on.
@@ -437,7 +445,7 @@ impl<'a> Buffers<'a> {
 }
 
 /// What a `data:` URI holds.
-fn decoded<'a>(uri: &str, at: usize, label: &str) -> Result<Bytes<'a>, Box<Fault>> {
+pub(super) fn decoded(uri: &str, at: usize, label: &str) -> Result<Vec<u8>, Box<Fault>> {
     const EXPECTED: &str = "data:application/octet-stream;base64, and the bytes in base 64";
     let Some((head, data)) = uri.split_once(',') else {
         return Err(Fault::new(at, format!("the data of {label} have no comma before them"), EXPECTED));
@@ -446,7 +454,7 @@ fn decoded<'a>(uri: &str, at: usize, label: &str) -> Result<Bytes<'a>, Box<Fault
         return Err(Fault::new(at, format!("the data of {label} are not in base 64"), EXPECTED));
     }
     match BASE64.decode(data) {
-        Ok(bytes) => Ok(Bytes::Own(Arc::new(bytes))),
+        Ok(bytes) => Ok(bytes),
         Err(error) => Err(Fault::new(at, format!("the data of {label} are broken: {error}"), EXPECTED)),
     }
 }

@@ -17,6 +17,10 @@ pub(super) enum List {
     Accessors,
     BufferViews,
     Buffers,
+    Materials,
+    Textures,
+    Images,
+    Samplers,
 }
 
 impl List {
@@ -28,6 +32,10 @@ impl List {
             List::Accessors => "accessors",
             List::BufferViews => "bufferViews",
             List::Buffers => "buffers",
+            List::Materials => "materials",
+            List::Textures => "textures",
+            List::Images => "images",
+            List::Samplers => "samplers",
         }
     }
 
@@ -57,6 +65,12 @@ struct Top<'a> {
     buffers: Vec<&'a RawValue>,
     #[serde(borrow, default)]
     materials: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    textures: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    images: Vec<&'a RawValue>,
+    #[serde(borrow, default)]
+    samplers: Vec<&'a RawValue>,
     #[serde(default)]
     skins: Vec<IgnoredAny>,
     #[serde(default)]
@@ -129,19 +143,16 @@ impl<'a> Document<'a> {
             List::Accessors => &self.top.accessors,
             List::BufferViews => &self.top.buffer_views,
             List::Buffers => &self.top.buffers,
+            List::Materials => &self.top.materials,
+            List::Textures => &self.top.textures,
+            List::Images => &self.top.images,
+            List::Samplers => &self.top.samplers,
         }
     }
 
     /// How many elements a list has.
     pub(super) fn count(&self, list: List) -> usize {
         self.list(list).len()
-    }
-
-    /// The name of a material, or which one it is.
-    pub(super) fn name_of_material(&self, index: u32) -> String {
-        let raw = self.top.materials.get(index as usize);
-        let named: Option<Named> = raw.and_then(|raw| serde_json::from_str(raw.get()).ok());
-        named.and_then(|named| named.name).unwrap_or_else(|| format!("materials[{index}]"))
     }
 
     /// The name of an element of a list, where it has one.

@@ -8,22 +8,25 @@
 //! - Triangles, strips and fans; `POSITION`, `NORMAL`, `TEXCOORD_0` (its v runs downwards, ours upwards), indices;
 //!   accessors of all types, interleaved, sparse, normalized. Buffers: of the container, `data:` URIs, files beside the
 //!   mesh.
-//! - The required extension that is known is `KHR_mesh_quantization`; those of materials, textures and lights are
-//!   passed over. Another is an error `E0513`.
-//! - Skins, morph targets, animations and optional extensions are told in a warning `W0512`, materials in `W0511`: the
-//!   mesh has the default.
+//! - Its materials, as far as the scene language has such ([`materials`](mod@materials)), with pictures beside the file
+//!   and within it.
+//! - Required extensions that are known are `KHR_mesh_quantization` and `EXT_mesh_gpu_instancing`; those of materials and
+//!   textures are told with them, those of lights are passed over. Another is an error `E0513`.
+//! - Skins, morph targets, animations and optional extensions are told in a warning `W0512`.
 //!
 //! A few bytes of a file may say that a mesh stands in a million places, or a million zeros: what all of it takes is at
 //! most 256 MB more than nine times the file with its buffers.
 
 mod accessor;
 mod document;
+mod materials;
+mod pictures;
 mod walk;
 
 use super::builder::Builder;
 use super::colors::Wanted;
 use super::cursor::{Fault, shown};
-use super::data::MeshData;
+use super::data::{MaterialNames, MeshData};
 use super::error::MeshError;
 use super::files::Files;
 use super::oddities::Oddity;
@@ -32,13 +35,13 @@ use accessor::Buffers;
 use document::{Document, EXPECTED};
 use scene_format::Diagnostic;
 use scene_format::codes;
+use scene_format::desc::NamedMaterial;
 use scene_format::diagnostic::Span;
-use std::collections::BTreeSet;
 use std::path::Path;
 use walk::Walk;
 
-/// The required extension that is read.
-const KNOWN: &str = "KHR_mesh_quantization";
+/// The required extensions that are read.
+const KNOWN: [&str; 2] = ["KHR_mesh_quantization", "EXT_mesh_gpu_instancing"];
 
 /// How the names of extensions begin that say nothing of triangles.
 const OF_LOOKS: [&str; 5] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp"];
@@ -48,24 +51,10 @@ const NAMES: usize = 8;
 
 /// Reads a glTF file; its content tells which of the two forms it has.
 pub(super) fn read(bytes: &[u8], (path, files): (&Path, &Files), wanted: Wanted<'_>) -> Result<MeshData, MeshError> {
-    let is_container = bytes.starts_with(b"glTF");
-    let parts = if is_container {
-        Parts::of_container(bytes).map_err(|fault| MeshError::at_byte(path, *fault))?
-    } else {
-        Parts { json: bytes, json_at: 0, binary: None, trailing: 0 }
-    };
-    let told = |mut fault: Box<Fault>| {
-        if is_container {
-            fault.at += parts.json_at;
-            MeshError::at_byte(path, *fault)
-        } else {
-            MeshError::at_line(path, parts.json, *fault)
-        }
-    };
-    let text = std::str::from_utf8(parts.json)
-        .map_err(|error| told(Fault::new(error.valid_up_to(), "the text is not UTF-8", EXPECTED)))?;
-    let document = Document::parse(text).map_err(told)?;
-    if let Some(name) = document.required.iter().find(|name| **name != KNOWN && !is_of_looks(name)) {
+    let (parts, is_container) = Parts::of(bytes).map_err(|fault| MeshError::at_byte(path, *fault))?;
+    let told = |fault: Box<Fault>| parts.told(*fault, is_container, path);
+    let document = parts.document().map_err(told)?;
+    if let Some(name) = document.required.iter().find(|name| !KNOWN.contains(&name.as_str()) && !is_of_looks(name)) {
         return Err(MeshError::Extension { path: path.to_owned(), name: plain(name) });
     }
     let mut builder = Builder::default();
@@ -76,16 +65,52 @@ pub(super) fn read(bytes: &[u8], (path, files): (&Path, &Files), wanted: Wanted<
     if let (Some(part), Some(names)) = (wanted.part, walk.names_without_part()) {
         return Err(parts::unknown(path, part, names, "nodes and meshes"));
     }
-    let walk::Found { meshes, morphs, materials, uvs } = walk.found;
+    let walk::Found { meshes, morphs, materials: used, triangle_material, uvs } = walk.found;
+    let (materials, warning) = materials::turn(&document, &used, path, files).map_err(told)?;
     let libraries = buffers.files();
     builder.mesh.uv_triangles = uvs;
     let whole = wanted.part.map_or("scene of the file".to_owned(), |part| format!("part {}", shown(part.as_bytes())));
     let found = format!("the {whole} has {meshes} {}", if meshes == 1 { "mesh" } else { "meshes" });
     let mut mesh = builder.finish(path, &found)?;
     mesh.libraries = libraries;
-    mesh.warnings.extend(of_materials(&document, &materials, path));
+    let numbers = used.iter().map(|number| (number.to_string(), true)).collect();
+    mesh.material_names = MaterialNames { libraries: Vec::new(), used: numbers };
+    (mesh.materials, mesh.triangle_material) = (materials, triangle_material);
+    mesh.warnings.extend(warning);
     mesh.warnings.extend(of_the_rest(&document, morphs, path));
     Ok(mesh)
+}
+
+/// The materials of these numbers, of a file that was read before.
+///
+/// # Errors
+/// When it cannot be read any more, or they are broken.
+pub(super) fn materials(
+    path: &Path,
+    files: &Files,
+    used: &[u32],
+) -> Result<(Vec<NamedMaterial>, Option<Diagnostic>), MeshError> {
+    let bytes = files.read(path)?;
+    let (parts, is_container) = Parts::of(&bytes).map_err(|fault| MeshError::at_byte(path, *fault))?;
+    let told = |fault: Box<Fault>| parts.told(*fault, is_container, path);
+    let document = parts.document().map_err(told)?;
+    materials::turn(&document, used, path, files).map_err(told)
+}
+
+/// The bytes of a picture that a file holds; the text says why there are none.
+pub(super) fn picture(bytes: &[u8], (path, files): (&Path, &Files), index: u32) -> Result<Vec<u8>, String> {
+    let read = || {
+        let (parts, _) = Parts::of(bytes)?;
+        let document = parts.document()?;
+        let mut buffers = Buffers::new(&document, (path, files), parts.binary, bytes.len() as u64);
+        pictures::read(&document, &mut buffers, index)
+    };
+    read().map_err(|fault: Box<Fault>| fault.message)
+}
+
+/// Whether a URI holds its data itself.
+fn is_data(uri: &str) -> bool {
+    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }
 
 fn is_of_looks(name: &str) -> bool {
@@ -113,6 +138,30 @@ fn number(bytes: &[u8], at: usize) -> Option<u32> {
 }
 
 impl<'a> Parts<'a> {
+    /// Of a file, whose content tells which of the two forms it has; whether it is a container.
+    fn of(bytes: &'a [u8]) -> Result<(Parts<'a>, bool), Box<Fault>> {
+        if bytes.starts_with(b"glTF") {
+            return Ok((Parts::of_container(bytes)?, true));
+        }
+        Ok((Parts { json: bytes, json_at: 0, binary: None, trailing: 0 }, false))
+    }
+
+    fn document(&self) -> Result<Document<'a>, Box<Fault>> {
+        let text = std::str::from_utf8(self.json)
+            .map_err(|error| Fault::new(error.valid_up_to(), "the text is not UTF-8", EXPECTED))?;
+        Document::parse(text)
+    }
+
+    /// A fault of the JSON, at its place in the file.
+    fn told(&self, mut fault: Fault, is_container: bool, path: &Path) -> MeshError {
+        if is_container {
+            fault.at += self.json_at;
+            MeshError::at_byte(path, fault)
+        } else {
+            MeshError::at_line(path, self.json, fault)
+        }
+    }
+
     /// Of a file that starts with `glTF`: version and length, then chunks, each with its length, its kind and its
     /// bytes.
     fn of_container(bytes: &'a [u8]) -> Result<Parts<'a>, Box<Fault>> {
@@ -164,18 +213,6 @@ fn some<'n>(names: impl ExactSizeIterator<Item = &'n str>) -> String {
     format!("{}{more}", names.join(", "))
 }
 
-/// `W0511`: the file's own materials are not taken.
-fn of_materials(document: &Document<'_>, used: &BTreeSet<u32>, path: &Path) -> Option<Diagnostic> {
-    let names: Vec<String> = used.iter().take(NAMES + 1).map(|&material| document.name_of_material(material)).collect();
-    (!names.is_empty()).then(|| {
-        let names = some(names.iter().map(String::as_str));
-        let message = format!("the mesh's own materials are not taken (the default is): {names}");
-        Diagnostic::warning(codes::MTL_UNSUPPORTED, Span::NONE, message)
-            .hint("give the object a `material`")
-            .at_line(path, 0)
-    })
-}
-
 /// `W0512`: what else is not taken.
 fn of_the_rest(document: &Document<'_>, morphs: u64, path: &Path) -> Option<Diagnostic> {
     let counted = |count: u64, one: &str| match count {
@@ -192,7 +229,7 @@ fn of_the_rest(document: &Document<'_>, morphs: u64, path: &Path) -> Option<Diag
     .flatten()
     .collect();
     let others: Vec<&str> =
-        document.used.iter().map(String::as_str).filter(|name| *name != KNOWN && !is_of_looks(name)).collect();
+        document.used.iter().map(String::as_str).filter(|name| !KNOWN.contains(name) && !is_of_looks(name)).collect();
     if !others.is_empty() {
         let word = if others.len() == 1 { "extension" } else { "extensions" };
         parts.push(format!("{word} {}", some(others.iter().copied())));

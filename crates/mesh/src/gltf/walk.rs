@@ -11,7 +11,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3, DVec4};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 #[derive(Deserialize)]
 struct Scene {
@@ -23,11 +23,32 @@ struct Scene {
 struct Node {
     mesh: Option<u32>,
     #[serde(default)]
+    extensions: NodeExtensions,
+    #[serde(default)]
     children: Vec<u32>,
     matrix: Option<[f64; 16]>,
     translation: Option<[f64; 3]>,
     rotation: Option<[f64; 4]>,
     scale: Option<[f64; 3]>,
+}
+
+#[derive(Deserialize, Default)]
+struct NodeExtensions {
+    #[serde(rename = "EXT_mesh_gpu_instancing")]
+    instancing: Option<Instancing>,
+}
+
+#[derive(Deserialize)]
+struct Instancing {
+    attributes: InstanceAttributes,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+struct InstanceAttributes {
+    translation: Option<u32>,
+    rotation: Option<u32>,
+    scale: Option<u32>,
 }
 
 #[derive(Deserialize)]
@@ -71,16 +92,21 @@ pub(super) struct Found {
     pub(super) meshes: u64,
     /// Primitives with morph targets.
     pub(super) morphs: u64,
-    /// Materials of triangles.
-    pub(super) materials: BTreeSet<u32>,
+    /// Materials of triangles, in order of first use.
+    pub(super) materials: Vec<u32>,
+    /// For each triangle, which of these it has; empty: all have the default.
+    pub(super) triangle_material: Vec<u32>,
     /// Texture coordinates of triangles, where some have none.
     pub(super) uvs: Option<Vec<[u32; 3]>>,
 }
 
-/// Triangles in a row that have texture coordinates, or have none.
+/// Triangles in a row that are of one kind.
 struct Stretch {
     end: usize,
+    /// Whether they have texture coordinates.
     uv: bool,
+    /// Their material, by its number in the file.
+    material: Option<u32>,
 }
 
 /// Nodes of one parent that are still to be visited.
@@ -240,11 +266,73 @@ impl<'w, 'a> Walk<'w, 'a> {
             let name = || self.document.name_of(List::Nodes, node);
             let in_part = in_part || self.part.as_mut().is_some_and(|part| part.is_of_node(name()));
             if let Some(mesh) = value.mesh {
-                self.mesh(mesh, at, map, in_part)?;
+                match &value.extensions.instancing {
+                    None => self.mesh(mesh, at, map, in_part)?,
+                    Some(instancing) => self.instances(mesh, &instancing.attributes, at, map, in_part)?,
+                }
             }
             open.push(Siblings::new(value.children, map, at, in_part));
         }
         self.finish_uvs();
+        self.finish_materials()
+    }
+
+    /// Which material each triangle has.
+    fn finish_materials(&mut self) -> Result<(), Box<Fault>> {
+        if self.stretches.iter().all(|stretch| stretch.material.is_none()) {
+            return Ok(());
+        }
+        self.buffers.spend(4 * self.builder.mesh.triangles.len() as u64, 0)?;
+        let mut index_of: BTreeMap<u32, u32> = BTreeMap::new();
+        let mut triangles = Vec::with_capacity(self.builder.mesh.triangles.len());
+        for Stretch { end, material, .. } in &self.stretches {
+            let index = material.map_or(NO_INDEX, |number| {
+                *index_of.entry(number).or_insert_with(|| {
+                    self.found.materials.push(number);
+                    self.found.materials.len() as u32 - 1
+                })
+            });
+            triangles.resize(*end, index);
+        }
+        self.found.triangle_material = triangles;
+        Ok(())
+    }
+
+    /// Brings a mesh as often as accessors say (`EXT_mesh_gpu_instancing`).
+    fn instances(
+        &mut self,
+        mesh: u32,
+        attributes: &InstanceAttributes,
+        at: usize,
+        map: DAffine3,
+        in_part: bool,
+    ) -> Result<(), Box<Fault>> {
+        let of_three = |walk: &mut Self, accessor: Option<u32>, what: &str| {
+            accessor.map(|accessor| walk.buffers.values::<3>(accessor, at, what)).transpose()
+        };
+        let translations = of_three(self, attributes.translation, "TRANSLATION")?;
+        let scales = of_three(self, attributes.scale, "SCALE")?;
+        let rotations = attributes.rotation.map(|accessor| self.buffers.values::<4>(accessor, at, "ROTATION"));
+        let rotations = rotations.transpose()?;
+        let counts = [
+            translations.as_ref().map(|values| values.count),
+            scales.as_ref().map(|values| values.count),
+            rotations.as_ref().map(|values| values.count),
+        ];
+        let count = counts.into_iter().flatten().next().unwrap_or(0);
+        if counts.into_iter().flatten().any(|other| other != count) {
+            let message = "the attributes of EXT_mesh_gpu_instancing have different numbers of elements";
+            return Err(Fault::new(at, message, "as many of each as there are instances"));
+        }
+        for k in 0..count {
+            let translation = translations.as_ref().map_or(Ok([0.0; 3]), |values| values.get(k))?;
+            let scale = scales.as_ref().map_or(Ok([1.0; 3]), |values| values.get(k))?;
+            let rotation = rotations.as_ref().map_or(Ok([0.0, 0.0, 0.0, 1.0]), |values| values.get(k))?;
+            let rotation = DVec4::from(rotation).try_normalize().map_or(DQuat::IDENTITY, DQuat::from_vec4);
+            let placed =
+                DAffine3::from_scale_rotation_translation(DVec3::from(scale), rotation, DVec3::from(translation));
+            self.mesh(mesh, at, map * placed, in_part)?;
+        }
         Ok(())
     }
 
@@ -330,8 +418,7 @@ impl<'w, 'a> Walk<'w, 'a> {
         let end = self.builder.mesh.triangles.len();
         if end > first {
             let count = (end - first) as u64;
-            self.stretches.push(Stretch { end, uv: attributes.uv.is_some() });
-            self.found.materials.extend(primitive.material);
+            self.stretches.push(Stretch { end, uv: attributes.uv.is_some(), material: primitive.material });
             if attributes.color.is_some() && !self.wants_colors {
                 self.builder.oddities.add_many(Oddity::VertexColor, u64::from(vertices.count));
             }
@@ -456,7 +543,7 @@ impl<'w, 'a> Walk<'w, 'a> {
             return;
         }
         let mut uvs = Vec::with_capacity(self.builder.mesh.triangles.len());
-        for Stretch { end, uv } in &self.stretches {
+        for Stretch { end, uv, .. } in &self.stretches {
             let rest = self.builder.mesh.triangles.get(uvs.len()..*end).unwrap_or_default();
             if *uv {
                 uvs.extend_from_slice(rest);

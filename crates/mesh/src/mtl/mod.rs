@@ -18,17 +18,15 @@
 
 mod library;
 
-use super::data::MeshData;
 use super::error::MeshError;
 use super::files::Files;
+use super::notes::{Notes, find_beside};
 use library::{Library, MtlMaterial};
 use scene_format::Diagnostic;
-use scene_format::codes;
 use scene_format::desc::{
     Albedo, Amount, BlinnPhong, Color, Diffuse, Emissive, LightGroup, Material, Mirror, NamedMaterial, Texture,
     TextureWrap, Transparent,
 };
-use scene_format::diagnostic::Span;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -56,25 +54,6 @@ impl MeshMaterials {
     }
 }
 
-impl MeshData {
-    /// Reads the materials of its triangles anew, for a mesh that was kept without them: what its MTL files and the
-    /// pictures that these name are now. Says whether the same names are defined as when `triangle_material` was made.
-    ///
-    /// # Errors
-    /// When an MTL file is broken.
-    pub fn read_materials(&mut self, path: &Path, files: &Files) -> Result<bool, MeshError> {
-        let libraries: Vec<&str> = self.mtl.libraries.iter().map(String::as_str).collect();
-        let used: Vec<&str> = self.mtl.used.iter().map(|(name, _)| name.as_str()).collect();
-        let found = load(&libraries, &used, path, files)?;
-        let is_as_before = found.defined(&used).eq(self.mtl.used.iter().map(|(name, known)| (name.as_str(), *known)));
-        self.materials = found.materials;
-        self.libraries.extend(found.libraries);
-        // The mesh's own warning comes before that of its materials.
-        self.warnings.extend(found.warning);
-        Ok(is_as_before)
-    }
-}
-
 /// Reads the MTL files that `mtllib` names in the OBJ file at `obj_path`, and turns the used materials.
 pub(super) fn load(
     libraries: &[&str],
@@ -86,7 +65,7 @@ pub(super) fn load(
     if used.is_empty() {
         return Ok(found);
     }
-    let mut notes = Notes::default();
+    let mut notes = Notes::new("`Kd`");
     let mut defined: BTreeMap<String, MtlMaterial> = BTreeMap::new();
     for path in library_paths(libraries, obj_path, files, &mut notes) {
         let text = match files.read(&path) {
@@ -139,75 +118,6 @@ fn library_paths(libraries: &[&str], obj_path: &Path, files: &Files, notes: &mut
     let mut unique = BTreeSet::new();
     paths.retain(|path| unique.insert(path.clone()));
     paths
-}
-
-/// A file named in another one: from that one's folder, with backslashes for slashes, or by its bare name beside it
-/// (MTL files often keep the paths of their author's machine).
-fn find_beside(path: &Path, name: &str, files: &Files) -> Option<PathBuf> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let slashed = name.replace('\\', "/");
-    let bare = slashed.rsplit('/').next().unwrap_or_default().to_owned();
-    [name, &slashed, &bare].into_iter().map(|name| folder.join(name)).find(|path| files.has(path))
-}
-
-/// What MTL says and a scene cannot have.
-#[derive(Default)]
-struct Notes {
-    missing: BTreeSet<String>,
-    undefined: BTreeSet<String>,
-    pictures: BTreeSet<String>,
-    /// What, and the materials that say it.
-    unsupported: BTreeMap<String, BTreeSet<String>>,
-    /// The material that is being turned; empty where the mesh has only one.
-    current: String,
-}
-
-impl Notes {
-    fn unsupported(&mut self, what: &str) {
-        let of = self.unsupported.entry(what.to_owned()).or_default();
-        if !self.current.is_empty() {
-            of.insert(self.current.clone());
-        }
-    }
-
-    fn into_warning(self, path: &Path) -> Option<Diagnostic> {
-        let mut parts: Vec<String> = Vec::new();
-        let unsupported: BTreeSet<String> =
-            self.unsupported.iter().map(|(what, materials)| of_materials(what, materials)).collect();
-        for (names, what) in [
-            (&self.missing, "MTL file not read"),
-            (&self.undefined, "no such material (the default is taken)"),
-            (&self.pictures, "no such picture (`Kd` is taken)"),
-            (&unsupported, "not supported"),
-        ] {
-            const SHOWN: usize = 8;
-            let mut list: Vec<&str> = names.iter().take(SHOWN).map(String::as_str).collect();
-            let more = format!("{} more", names.len().saturating_sub(SHOWN));
-            if names.len() > SHOWN {
-                list.push(&more);
-            }
-            if !list.is_empty() {
-                parts.push(format!("{what}: {}", list.join(", ")));
-            }
-        }
-        (!parts.is_empty()).then(|| {
-            let message = format!("the mesh's own materials are taken only in part: {}", parts.join("; "));
-            Diagnostic::warning(codes::MTL_UNSUPPORTED, Span::NONE, message)
-                .hint("a `material` in the scene replaces those of the file")
-                .at_line(path, 0)
-        })
-    }
-}
-
-/// `Ke (in lamp, window)`: the first few by name.
-fn of_materials(what: &str, materials: &BTreeSet<String>) -> String {
-    const SHOWN: usize = 3;
-    let shown: Vec<&str> = materials.iter().take(SHOWN).map(String::as_str).collect();
-    match materials.len() {
-        0 => what.to_owned(),
-        count if count > SHOWN => format!("{what} (in {} and {} more)", shown.join(", "), count - SHOWN),
-        _ => format!("{what} (in {})", shown.join(", ")),
-    }
 }
 
 /// The scene's material for one of MTL.

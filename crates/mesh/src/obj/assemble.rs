@@ -4,7 +4,7 @@ use super::piece::{FoundCorner, PartSwitch, Piece, RawIndex};
 use super::{MOST, Oddities, Oddity};
 use crate::coloring::{NO_COLOR, settled};
 use crate::cursor::{Fault, shown};
-use crate::data::{MeshData, MtlNames, NO_INDEX};
+use crate::data::{MaterialNames, MeshData, NO_INDEX};
 use crate::error::MeshError;
 use crate::files::Files;
 use crate::mtl;
@@ -179,9 +179,9 @@ impl<'a> Assembly<'a> {
 
         let materials = mtl::load(&libraries, &names, path, files)?;
         let used = materials.defined(&names).map(|(name, is_defined)| (name.to_owned(), is_defined)).collect();
-        let mtl = match names.is_empty() {
-            true => MtlNames::default(),
-            false => MtlNames { libraries: libraries.iter().map(|&name| name.to_owned()).collect(), used },
+        let material_names = match names.is_empty() {
+            true => MaterialNames::default(),
+            false => MaterialNames { libraries: libraries.iter().map(|&name| name.to_owned()).collect(), used },
         };
         let mut triangle_material = join(good.into_iter().map(|part| part.materials).collect());
         if materials.materials.is_empty() {
@@ -200,7 +200,7 @@ impl<'a> Assembly<'a> {
             colors,
             materials: materials.materials,
             triangle_material,
-            mtl,
+            material_names,
             libraries: materials.libraries,
             warnings: materials.warning.into_iter().collect(),
         })

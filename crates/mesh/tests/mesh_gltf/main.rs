@@ -1,6 +1,7 @@
 //! glTF files: both forms, nodes, primitives, accessors of all sorts, and what is not taken.
 
 mod faults;
+mod materials;
 mod support;
 
 use serde_json::json;
@@ -185,7 +186,11 @@ fn primitives_may_share_vertices_and_lack_what_others_have() {
 #[test]
 fn what_is_not_taken_is_told() {
     let mut file = square();
-    file.json["materials"] = json!([{ "name": "gold" }, {}, { "name": "unused" }]);
+    file.json["materials"] = json!([
+        { "name": "gold", "extensions": { "KHR_materials_sheen": {} } },
+        {},
+        { "name": "unused", "normalTexture": { "index": 0 } },
+    ]);
     file.json["meshes"][0]["primitives"][0]["material"] = 1.into();
     file.json["meshes"][0]["primitives"][0]["targets"] = json!([{}]);
     let more = file.json["meshes"][0]["primitives"][0].clone();
@@ -193,7 +198,7 @@ fn what_is_not_taken_is_told() {
     file.json["meshes"][0]["primitives"][1]["material"] = 0.into();
     file.json["skins"] = json!([{ "joints": [0] }]);
     file.json["animations"] = json!([{}, {}]);
-    file.json["extensionsUsed"] = json!(["KHR_materials_ior", "EXT_mesh_gpu_instancing", "KHR_lights_punctual"]);
+    file.json["extensionsUsed"] = json!(["KHR_materials_ior", "MSFT_lod", "KHR_lights_punctual"]);
     file.json["extensionsRequired"] = json!(["KHR_materials_ior"]);
     let mesh = file.read();
     let told: Vec<_> = mesh.warnings.iter().map(|w| (w.code.as_str(), w.message.as_str(), w.hint.as_str())).collect();
@@ -202,18 +207,46 @@ fn what_is_not_taken_is_told() {
         [
             (
                 "W0511",
-                "the mesh's own materials are not taken (the default is): `gold`, `materials[1]`",
-                "give the object a `material`"
+                "the mesh's own materials are taken only in part: not supported: `KHR_materials_sheen` (in gold)",
+                "a `material` in the scene replaces those of the file"
             ),
             (
                 "W0512",
                 "the mesh is taken without some of its file: 1 skin, 2 morphed primitives, 2 animations, \
-                 extension `EXT_mesh_gpu_instancing`",
+                 extension `MSFT_lod`",
                 "in the program that made it, apply them before export"
             ),
         ]
     );
-    assert!(mesh.materials.is_empty() && mesh.triangle_material.is_empty());
+}
+
+/// Each instance is the mesh once more, within its node.
+#[test]
+fn instances_stand_where_their_accessors_say() {
+    let mut file = square();
+    let moves = file.floats(&[[0.0, 0.0, 1.0], [5.0, 0.0, 0.0], [0.0, 7.0, 0.0]]);
+    let scales = file.floats(&[[1.0; 3], [2.0; 3], [1.0, 1.0, -1.0]]);
+    let attributes = json!({ "TRANSLATION": moves, "SCALE": scales });
+    file.json["nodes"][0]["extensions"] = json!({ "EXT_mesh_gpu_instancing": { "attributes": attributes } });
+    file.json["nodes"][0]["translation"] = json!([100, 0, 0]);
+    file.json["extensionsUsed"] = json!(["EXT_mesh_gpu_instancing"]);
+    file.json["extensionsRequired"] = json!(["EXT_mesh_gpu_instancing"]);
+    let mesh = file.read();
+    assert!(mesh.warnings.is_empty(), "{:?}", mesh.warnings);
+    assert_eq!(mesh.triangles.len(), 6);
+    for (k, ([x, y, z], s)) in
+        [([100.0, 0.0, 1.0], 1.0), ([105.0, 0.0, 0.0], 2.0), ([100.0, 7.0, 0.0], 1.0)].into_iter().enumerate()
+    {
+        for (at, corner) in mesh.positions[4 * k..].iter().zip(SQUARE.map(|point| point.map(f64::from))) {
+            assert_eq!(*at, [x + s * corner[0], y + s * corner[1], z], "{k}");
+        }
+    }
+    // The third is mirrored, and wound the other way.
+    assert_eq!(mesh.triangles[4], [8, 10, 9]);
+    let short = file.floats(&[[1.0; 3]]);
+    file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["SCALE"] = short.into();
+    let fault = support::fault_of(parse(&file.glb(), MeshFormat::Glb, Path::new("m.glb")));
+    assert!(fault[0].contains("as many") || fault[1].contains("as many"), "{fault:?}");
 }
 
 #[test]

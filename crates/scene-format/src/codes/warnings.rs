@@ -188,9 +188,9 @@ codes! {
     /// A mesh has oddities that were mended: triangles without area, points and lines, missing normals. They are
     /// counted.
     MESH_ODDITIES "W0510" "oddities in a mesh";
-    /// A material file (MTL) says things that this renderer cannot do, or a glTF file has materials of its own, which
-    /// are not taken.
-    MTL_UNSUPPORTED "W0511" "a material file says more than can be done";
+    /// The materials of a mesh's own file (MTL, glTF) say things that this renderer cannot do: they are taken as far as
+    /// there is something like them here. A `material` in the scene replaces them.
+    MTL_UNSUPPORTED "W0511" "a mesh's own materials say more than can be done";
     /// A glTF file has more than meshes that stand still: skins, morph targets, animations, extensions that it can be
     /// read without. The mesh is taken without them, as its nodes place it.
     GLTF_UNSUPPORTED "W0512" "a glTF file has more than meshes that stand still";

@@ -207,11 +207,13 @@ shapes! {
 }
 
 impl Object {
-    /// Whether it has the materials that its own file names (`mtllib` of OBJ).
+    /// Whether it has the materials of its own file (`mtllib` of OBJ, those of glTF), if that has any.
     pub fn has_materials_of_file(&self) -> bool {
         let Object::Mesh(mesh) = self else { return false };
         let extension = mesh.file().and_then(|file| file.value.extension());
-        mesh.material == MaterialRef::Default && extension.is_some_and(|of| of.eq_ignore_ascii_case("obj"))
+        let has =
+            |extension: &std::ffi::OsStr| ["obj", "gltf", "glb"].iter().any(|of| extension.eq_ignore_ascii_case(of));
+        mesh.material == MaterialRef::Default && extension.is_some_and(has)
     }
 
     /// The shapes that it is made of, where it is made of several.

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 use tracer_mesh::placements::{PlacementsError, load_placements, parse_placements};
-use tracer_mesh::{self as mesh, Files, MeshArrays, MeshData, MeshError, Wanted};
+use tracer_mesh::{self as mesh, Files, MeshArrays, MeshData, MeshError, Wanted, file_of};
 
 /// Something that a scene names as a file and that is in memory.
 #[derive(Clone, Debug)]
@@ -168,8 +168,8 @@ impl<'a> Sources<'a> {
         if let Some(pixels) = self.pixels(path)? {
             return pixels.texture(path, reading).map(Arc::new);
         }
-        match (self.files.get(path), self.kept) {
-            (Some(bytes), _) => texture::decode_as(bytes, path, reading).map(Arc::new),
+        match (self.files.get(file_of(path)), self.kept) {
+            (Some(_), _) => texture::decode_as(&self.files.read_picture(path)?, path, reading).map(Arc::new),
             (None, Some(kept)) => kept::load_texture(kept, path, reading),
             (None, None) => texture::load_as(path, reading).map(Arc::new),
         }

@@ -64,7 +64,7 @@ fn faults_of(file: &NamedFile, path: &Path, from: &Sources<'_>) -> Diagnostics {
     }
 }
 
-/// The pictures that a material of an MTL file names; their paths are complete.
+/// The pictures that a material of a mesh.s own file names; their paths are complete.
 fn pictures(material: &Material) -> impl Iterator<Item = PathBuf> {
     material.textures().into_iter().map(|texture| texture.file.value.to_path_buf())
 }

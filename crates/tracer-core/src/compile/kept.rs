@@ -106,7 +106,7 @@ pub(super) fn load_mesh(
 /// A texture, read or kept.
 pub(super) fn load_texture(kept: &Kept, path: &Path, reading: Reading) -> Result<Arc<Texture>, TextureError> {
     let load = || texture::load_as(path, reading).map(Arc::new);
-    file(kept.is_frozen, &kept.textures, (path.to_owned(), reading), path, load, |_| Vec::new())
+    file(kept.is_frozen, &kept.textures, (path.to_owned(), reading), tracer_mesh::file_of(path), load, |_| Vec::new())
 }
 
 /// Heights, read or kept.

@@ -30,7 +30,7 @@ impl Loaded {
         self.file_of_object.get(object).copied().flatten().and_then(|file| self.files.get(file)).map(|file| &**file)
     }
 
-    /// The MTL files that were read.
+    /// Further files that were read: MTL, buffers of glTF.
     pub fn libraries(&self) -> impl Iterator<Item = &PathBuf> {
         self.files.iter().flat_map(|file| &file.libraries)
     }
@@ -46,7 +46,7 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
     let mut made: Vec<(&dyn Triangulated, Span)> = Vec::new();
     let mut fields: Vec<&HeightField> = Vec::new();
     let mut geometry_of_object: Vec<Geometry<usize, usize, usize, usize>> = Vec::new();
-    // Whether an object takes the materials of the file: what its MTL says in vain matters only then.
+    // Whether an object takes the materials of the file: what these say in vain matters only then.
     let mut own_materials: Vec<bool> = Vec::new();
     let (readers, mut wanted) = (Readers::of(desc), Vec::new());
     for object in polygonal(desc) {

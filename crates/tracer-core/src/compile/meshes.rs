@@ -37,7 +37,7 @@ pub struct Assigned {
     shining: Vec<Vec<Option<[f64; 3]>>>,
 }
 
-/// Resolves the materials of the objects: what the scene names, else what the file's MTL says, else the default.
+/// Resolves the materials of the objects: what the scene names, else those of the file, else the default.
 pub fn assign_materials(
     desc: &SceneDesc,
     loaded: &Loaded,

@@ -64,6 +64,7 @@ use tracer_kernels::scene::{
     PlaneTable, Program, Shape, ShapeTable, Sharing, Solids, Space, Sphere, SphereTable, Tables, TextureTable, Written,
 };
 use tracer_kernels::{bvh, scene};
+use tracer_mesh::file_of;
 use trees::Hung;
 
 /// Of so many triangles at most a scene has a table of what can hide points from each other.
@@ -177,8 +178,9 @@ fn gather<'d>(desc: &'d SceneDesc, sources: &Sources<'_>) -> Result<Gathered<'d>
     let given = Given { desc, sources, settled: &settled };
     curved::place(given, &mut curved, &mut diagnostics);
     csg::place_copies(given, &mut solid_objects, &mut diagnostics);
-    let files: BTreeSet<PathBuf> =
-        named_files(desc).into_iter().chain(loaded.libraries().cloned()).chain(builder.textures().cloned()).collect();
+    let named = named_files(desc);
+    let files = named.iter().chain(loaded.libraries()).chain(builder.textures());
+    let files: BTreeSet<PathBuf> = files.map(|path| file_of(path).to_owned()).collect();
     let mattes = Mattes::of(desc, builder.names());
     let finished = builder.finish(sources, &mut diagnostics);
     let background = environment::load(desc, sources, &mut diagnostics);
@@ -379,7 +381,7 @@ fn acceleration(word: Acceleration) -> bvh::Acceleration {
 pub fn named_files(desc: &SceneDesc) -> Vec<PathBuf> {
     let included = desc.includes.iter().map(|file| &**file);
     let named: BTreeSet<&Path> = nearby::named(desc).map(|file| &*file.value).chain(included).collect();
-    named.into_iter().map(|path| desc.base_dir.join(path)).collect()
+    named.into_iter().map(|path| desc.base_dir.join(file_of(path))).collect()
 }
 
 /// One point per object near what the camera looks at, on its surface or in its box. What has no end says nothing of

@@ -203,8 +203,7 @@ pub(super) fn material_of<'d>(
 
 /// A mesh whose own file says that parts of it shine, in too many copies for each to have triangles of its own.
 pub fn unlit(span: Span) -> Diagnostic {
-    let message =
-        "this mesh's own materials shine (`Ke`), but its many copies share their triangles: none of them shines";
+    let message = "this mesh's own materials shine, but its many copies share their triangles: none of them shines";
     Diagnostic::warning(codes::MTL_UNSUPPORTED, span, message)
         .expected("lamps as objects of their own, with `material: Emissive(radiance: ..)`")
         .hint("with `instances: Never` each copy has triangles of its own, and shines")

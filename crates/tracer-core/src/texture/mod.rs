@@ -38,7 +38,7 @@ use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics};
 use std::io::Cursor;
 use std::path::Path;
-use tracer_mesh::read_regular_file;
+use tracer_mesh::Files;
 
 /// Most pixels along a side.
 pub const MAX_SIDE: u32 = 1 << 15;
@@ -77,7 +77,8 @@ impl Texture {
     }
 }
 
-/// Reads the PNG, JPEG, HDR or EXR picture in `path`; its content decides which, not its extension.
+/// Reads the PNG, JPEG, HDR or EXR picture in `path`; its content decides which, not its extension. A picture within a
+/// glTF file is called `model.glb/images[0]`.
 ///
 /// Grey and palette pictures become RGB; alpha is ignored (with a warning when it is not opaque everywhere); colours
 /// are taken as sRGB, whatever profile the file names; the orientation that a camera noted in a JPEG is applied. HDR
@@ -95,7 +96,7 @@ pub fn load(path: &Path) -> Result<Texture, TextureError> {
 /// # Errors
 /// As [`load`].
 pub fn load_as(path: &Path, reading: Reading) -> Result<Texture, TextureError> {
-    decode_as(&read_regular_file(path)?, path, reading)
+    decode_as(&Files::default().read_picture(path)?, path, reading)
 }
 
 /// Decodes a picture from the bytes of its file; `path` is what messages show.

@@ -27,6 +27,7 @@ mod integrators;
 mod layers;
 mod light_groups;
 mod marks;
+mod materials_of_meshes;
 mod matrix;
 mod mattes;
 mod metals;

@@ -60,8 +60,8 @@ scene_struct! {
     /// A triangle mesh, from a file or written out as `points` and `faces`.
     pub(crate) struct MeshWords as "Mesh", "a mesh", exactly one of [file, points] {
         /// OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene
-        /// are taken, where its nodes place them, and the colours of its vertices where a `VertexColor` reads them; its
-        /// materials, lights, cameras, skins, morph targets and animations are not.
+        /// are taken, where its nodes place them, with its materials and pictures, and the colours of its vertices where
+        /// a `VertexColor` reads them; its lights, cameras, skins, morph targets and animations are not.
         file: WrittenFile = WrittenFile::default() => Rule::file(FileKind::Mesh);
         /// With `file`: only this part of it, as if the file held nothing else. In OBJ the faces of objects (`o`) and
         /// groups (`g`) of this name, in glTF nodes, with all that is below them, and meshes of this name; all of them
@@ -74,7 +74,8 @@ scene_struct! {
         faces: WrittenFaces = WrittenFaces::default();
         /// With `points`: a colour for each of them, which a `VertexColor` of the material shows.
         colors: Colors = Colors::default();
-        /// Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
+        /// Its material, by name or written here; without one those of the file (the MTL of OBJ, glTF's own), else
+        /// `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();

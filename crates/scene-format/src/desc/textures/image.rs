@@ -13,7 +13,8 @@ scene_struct! {
     pub struct Texture as "Texture", "a texture" {
         /// PNG, JPEG, HDR or EXR, relative to the scene file. Numbers of HDR and EXR files beyond 0 to 1 are clipped,
         /// and what is none is 0; of an EXR file of several parts the first with R, G and B is taken. In memory a
-        /// texel takes 4 bytes, of HDR, EXR and PNG of 16 bits 12.
+        /// texel takes 4 bytes, of HDR, EXR and PNG of 16 bits 12. A picture within a glTF file is called by its place
+        /// in it: `model.glb/images[0]`.
         file: Spanned<Arc<Path>> => Rule::file(FileKind::Texture);
         /// Between texels.
         filter: TextureFilter = TextureFilter::Bilinear;

@@ -1,8 +1,7 @@
 //! Meshes of files as they were read.
 //!
 //! A mesh goes by the contents of its file alone: what its warnings tell of, and where its other files lie, is told
-//! anew by its path. Materials of MTL files are read again, since they go by files and pictures that may come and go;
-//! the contents of a glTF file's buffers are told by their hashes.
+//! anew by its path. Materials are read again, since they go by files and pictures that may come and go; the contents of a glTF file's buffers are told by their hashes.
 
 use super::file::{self, KeptError, KeptFile, KeptKind};
 use super::{ContentHash, Key, Stamp, Store, Told};
@@ -14,7 +13,7 @@ use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
-use tracer_mesh::{self as mesh, Files, MAX_COORDINATE, MeshData, MeshError, MeshFormat, MtlNames, NO_INDEX};
+use tracer_mesh::{self as mesh, Files, MAX_COORDINATE, MaterialNames, MeshData, MeshError, MeshFormat, NO_INDEX};
 use tracer_mesh::{ColorValues, VertexColors, Wanted};
 
 /// Smaller files are read as fast.
@@ -138,11 +137,11 @@ fn read(file: KeptFile, path: &Path, store: &dyn Store) -> Result<Option<MeshDat
         materials: Vec::new(),
         libraries: meta.files.iter().map(|(name, _)| folder.join(name)).collect(),
         warnings: meta.warnings.iter().map(|warning| warning.told(path)).collect(),
-        mtl: meta.mtl,
+        material_names: meta.material_names,
     };
-    let materials = mesh.mtl.used.iter().filter(|(_, is_defined)| *is_defined).count();
+    let materials = mesh.material_names.used.iter().filter(|(_, is_defined)| *is_defined).count();
     sound(&mesh, materials)?;
-    if !mesh.mtl.used.is_empty() && !mesh.read_materials(path, &Files::default()).unwrap_or(false) {
+    if !mesh.material_names.used.is_empty() && !mesh.read_materials(path, &Files::default()).unwrap_or(false) {
         return Ok(None);
     }
     Ok(Some(mesh))
@@ -197,7 +196,7 @@ struct Meta {
     has_uv_triangles: bool,
     /// 0: none; 1: bytes, 2: numbers, both linear; 3, 4: in sRGB.
     colors: u64,
-    mtl: MtlNames,
+    material_names: MaterialNames,
     /// Other files, from the folder of the mesh's, and the hashes of what they hold.
     files: Vec<(String, ContentHash)>,
     warnings: Vec<Warning>,
@@ -240,7 +239,7 @@ impl Warning {
 impl Meta {
     /// Of a mesh that was read from `path` after a moment; `None` where it cannot be kept.
     fn of(mesh: &MeshData, path: &Path, store: &dyn Store, began: SystemTime) -> Option<Self> {
-        let has_mtl = !mesh.mtl.used.is_empty();
+        let has_materials = !mesh.material_names.used.is_empty();
         let folder = path.parent().unwrap_or(Path::new(""));
         // Of what was written meanwhile nobody knows what was read.
         let file = |file: &PathBuf| {
@@ -249,8 +248,9 @@ impl Meta {
             settled.then(|| Some((name.to_owned(), hash_of(file, store)?)))?
         };
         // Those of MTL are read again.
+        let has_mtl = !mesh.material_names.libraries.is_empty();
         let files = if has_mtl { Some(Vec::new()) } else { mesh.libraries.iter().map(file).collect() };
-        let told = mesh.warnings.iter().filter(|warning| !has_mtl || warning.code != codes::MTL_UNSUPPORTED);
+        let told = mesh.warnings.iter().filter(|warning| !has_materials || warning.code != codes::MTL_UNSUPPORTED);
         Some(Meta {
             has_normal_triangles: mesh.normal_triangles.is_some(),
             has_uv_triangles: mesh.uv_triangles.is_some(),
@@ -258,7 +258,7 @@ impl Meta {
                 let numbers = matches!(colors.values, ColorValues::Numbers(_));
                 1 + u64::from(numbers) + 2 * u64::from(colors.is_srgb)
             }),
-            mtl: mesh.mtl.clone(),
+            material_names: mesh.material_names.clone(),
             files: files?,
             warnings: told.map(|warning| Warning::of(warning, path)).collect::<Option<_>>()?,
         })
@@ -269,10 +269,10 @@ impl Meta {
         number(&mut to, u64::from(self.has_normal_triangles));
         number(&mut to, u64::from(self.has_uv_triangles));
         number(&mut to, self.colors);
-        number(&mut to, self.mtl.libraries.len() as u64);
-        self.mtl.libraries.iter().for_each(|name| text(&mut to, name));
-        number(&mut to, self.mtl.used.len() as u64);
-        for (name, is_defined) in &self.mtl.used {
+        number(&mut to, self.material_names.libraries.len() as u64);
+        self.material_names.libraries.iter().for_each(|name| text(&mut to, name));
+        number(&mut to, self.material_names.used.len() as u64);
+        for (name, is_defined) in &self.material_names.used {
             text(&mut to, name);
             number(&mut to, u64::from(*is_defined));
         }
@@ -304,8 +304,15 @@ impl Meta {
             let (message, expected, hint) = (taken_text(from)?, taken_text(from)?, taken_text(from)?);
             Some(Warning { code, message, expected, hint, line: taken_number(from)?.checked_sub(1) })
         })?;
-        let mtl = MtlNames { libraries, used };
-        from.is_empty().then_some(Meta { has_normal_triangles, has_uv_triangles, colors, mtl, files, warnings })
+        let material_names = MaterialNames { libraries, used };
+        from.is_empty().then_some(Meta {
+            has_normal_triangles,
+            has_uv_triangles,
+            colors,
+            material_names,
+            files,
+            warnings,
+        })
     }
 }
 
