@@ -65,6 +65,7 @@ mod json_schema;
 mod load;
 mod mend;
 mod mentioned;
+mod nameless;
 mod overrides;
 pub mod path;
 pub mod plane;

@@ -6,6 +6,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Severity, Source, Span, s
 use crate::files::{self, FileKind, MAX_FILE_BYTES, NamedFile};
 use crate::follow_ups;
 use crate::include::Library;
+use crate::nameless;
 use crate::overrides::{self, Override};
 use crate::read::{self, Whole};
 use crate::render::apply_edits;
@@ -210,6 +211,7 @@ impl Texts {
             });
         }
         diagnostics.sort_by_key(|diagnostic| diagnostic.span);
+        nameless::name_values(text, &mut diagnostics);
         follow_ups::withhold(text, &mut diagnostics);
         let Some(scene) = scene else {
             return Err(Faults { diagnostics, files: sink.files.outside(&broken), undecided });

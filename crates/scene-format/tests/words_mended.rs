@@ -393,6 +393,43 @@ fn kinds_of_other_programs() {
     assert_eq!(mended, scene("50"));
 }
 
+/// A value among fields that has no name of its own is told so, whatever brackets it has.
+#[test]
+fn values_without_names() {
+    check_once(&[
+        (
+            "Sphere(center: (0, 0, 0), radius: 1, Mirror()), Box(size: 2)",
+            "Sphere(center: (0, 0, 0), radius: 1, material: Mirror()), Box(size: 2)",
+        ),
+        ("Box(size: 1, Translate((1, 0, 0)))", "Box(size: 1, transform: [Translate((1, 0, 0))])"),
+        ("Box(size: 1, Ring(count: 3, radius: 4))", "Box(size: 1, placements: Ring(count: 3, radius: 4))"),
+        ("Box(Translate((1, 0, 0)))", "Box(transform: [Translate((1, 0, 0))])"),
+        ("Group(Box(size: 1), Box(size: 2))", "Group(objects: [Box(size: 1), Box(size: 2)])"),
+        ("Sphere((0, 0, 0), 1)", "Sphere(center: (0, 0, 0), radius: 1)"),
+        ("Box(size: 1, rotation: (0, 45, 0))", "Box(size: 1, transform: [Rotate(axis: (0, 1, 0), degrees: 45)])"),
+        ("Mesh(file: assets\\cat.obj)", "Mesh(file: \"assets/cat.obj\")"),
+    ]);
+    for (written, told) in [
+        ("Box(size: 1, Texture(file: \"x.png\"))", "this value has no field name"),
+        ("Box((0, 0, 0), (1, 1, 1))", "the values of a box are written with their names"),
+        ("Wall()", "`Wall` is not a kind of object"),
+    ] {
+        let found = errors(&scene(written, Syntax::Ron), Syntax::Ron);
+        let told_of: Vec<(&str, bool)> = found.iter().map(|fault| (&*fault.message, fault.edit.is_some())).collect();
+        assert_eq!(told_of, [(told, false)], "{written}");
+    }
+    // In braces, too, where nobody knows the name.
+    let ball = "Sphere(center: (0, 0, 0), radius: 1, material: \"a\")";
+    let text =
+        format!("Scene(background: 1, materials: {{ \"a\": Diffuse(albedo: 0.5), Mirror() }}, objects: [{ball}])");
+    let found = errors(&text, Syntax::Ron);
+    assert_eq!((found.len(), &*found[0].message, found[0].edit.is_some()), (1, "this entry has no name", false));
+    // POV-Ray's angle is along the width.
+    let text = |camera: &str| format!("Scene(background: 1, camera: Camera({camera}), objects: [Box(size: 1)])");
+    let mended = mend("scene", &text("angle: 60"), Syntax::Ron, Path::new("")).text;
+    assert_eq!(mended, text("fov: 60, fov_axis: Horizontal"));
+}
+
 /// What is missing or too much around the whole of a scene.
 #[test]
 fn a_scene_without_its_brackets() {

@@ -3,6 +3,7 @@
 use super::Reader;
 use super::colors_elsewhere::{numbers_in_text, of_mesh};
 use super::shape_fields::one_ring;
+use super::transforms_elsewhere::rotation_as_field;
 use super::value::{hex_color, is_picture};
 use crate::codes;
 use crate::css_colors::named_color;
@@ -227,6 +228,14 @@ pub(super) fn field_elsewhere(
             };
             Some((None, format!("{}{texture}", name_of("albedo"))))
         }
+        // Of POV-Ray, where it is along the width.
+        "angle" if def.name == "Camera" => {
+            let axis = if value.syntax() == Syntax::Ron { "Horizontal" } else { "\"Horizontal\"" };
+            let degrees = value.number().map(|_| value.lexeme())?;
+            let mended = format!("{}{degrees}, {}{axis}", name_of("fov"), name_of("fov_axis"));
+            (value.syntax() != Syntax::Toml).then_some((Some("fov"), mended))
+        }
+        _ if let Some(mended) = rotation_as_field(name, value, def) => Some((Some("transform"), mended)),
         "diameter" => convert("radius", |d| d / 2.0),
         "radians" if def.field("degrees").is_some() => {
             let degrees = degrees(value.number()?, value.lexeme());

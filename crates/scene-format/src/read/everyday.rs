@@ -16,7 +16,7 @@ const WORDS: &[(&[&str], &str)] = &[
     (
         &["blur", "blurry", "unsharp", "defocus"],
         "blur by depth is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`; \
-         nothing moves while a picture is taken",
+         what moves is blurred while the camera's `shutter` is open",
     ),
     (
         &["floor", "ground", "terrain", "landscape"],

@@ -483,6 +483,9 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
             "how rough a gloss is is the `exponent` of BlinnPhong, about 2 / roughness^4: 10 is dull, 100000 nearly a \
              mirror; rough metal is a Conductor"
         }
+        "opacity" | "alpha" | "alpha_map" | "transparency" if def.name == "Transparent" => {
+            "how much of the light passes each surface is its `transmittance`"
+        }
         "opacity" | "alpha" | "alpha_map" | "transparency" if surface => {
             "what is seen through is Transparent(ior: 1.5)"
         }

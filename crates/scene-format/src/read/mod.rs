@@ -14,6 +14,7 @@ mod hints;
 mod include;
 mod marks;
 mod materials;
+mod nameless;
 mod of_fields;
 mod of_kinds;
 mod outlines;
@@ -40,6 +41,7 @@ pub(crate) use check::{Whole, scene};
 pub(crate) use everyday::everyday;
 pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
+pub(crate) use nameless::field_of;
 pub(crate) use part::part;
 pub(crate) use pick::{PICK, pick_body};
 use repeat::MOST_ITEMS;
@@ -54,7 +56,7 @@ pub(crate) use vars::{Vars, is_expression};
 use crate::codes;
 use crate::desc::{ITEMS, Nested, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
-use crate::schema::{self, FieldDef, StructDef, Type};
+use crate::schema::{FieldDef, StructDef, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
 use crate::tree::{Item, Kind, NOWHERE};
@@ -277,7 +279,7 @@ impl<'r> Reader<'r> {
                         let slot = def.fields.iter().position(|field| field.name == bare)?;
                         fields.set(slot, only);
                     }
-                    (Some(first), second, _) => return self.without_names(first, second.is_none(), def),
+                    (Some(_), ..) => return self.without_names(item, def),
                 }
             }
             Kind::Text if def.name == "Output" => return self.output_as_text(item),
@@ -350,29 +352,6 @@ impl<'r> Reader<'r> {
         }
         self.leave_out_untaken(&mut fields);
         Some(fields)
-    }
-
-    /// Reports that values have no names; the first of them, and whether it is the only one.
-    fn without_names<T>(&mut self, first: Item<'_, '_>, only: bool, def: &'static StructDef) -> Option<T> {
-        let message = format!("the values of {} are written with their names", def.noun);
-        let mut fault = Diagnostic::error(codes::MISSING_NAME, first.head(), message).expected(field_list(def));
-        if let Some(rows) = elsewhere::matrix_rows(first).filter(|_| only && def.name == "Matrix") {
-            fault.hint =
-                "four numbers are a row, and there are three: `rows: ((1, 0, 0, x), (0, 1, 0, y), (0, 0, 1, z))`"
-                    .to_owned();
-            fault.edit = Some(Edit { span: first.span(), replacement: rows });
-            self.report(fault);
-            return None;
-        }
-        let field = def.fields.first();
-        // `Uv(8)`: what fits the first field is most probably that.
-        let fits = only && field.is_some_and(|field| schema::fits(first, &field.kind));
-        let name = field.map_or("name", |field| field.name);
-        let mended = format!("{name}: {}", if fits { first.lexeme() } else { "value" });
-        fault.hint = format!("write `{}`", shortened(&mended));
-        fault.edit = fits.then(|| Edit { span: first.span(), replacement: mended });
-        self.report(fault);
-        None
     }
 
     /// `excused`: fields that something else was written for, which has been told.
@@ -542,6 +521,9 @@ impl<'r> Reader<'r> {
             }
             self.report(fault);
             return None;
+        }
+        if at.name == "transform" && item.kind() == Kind::Map && item.name().is_none() && !header {
+            return self.transforms_in_braces(item, at);
         }
         let transform = || transforms_elsewhere::lone_transform(item).filter(|_| at.name == "transform");
         let edit = match item.kind() {

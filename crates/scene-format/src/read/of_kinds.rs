@@ -42,6 +42,11 @@ pub(super) const OBJECTS: Hints = &[
         "a lamp is an object that shines: `Rectangle(size: 1, material: Emissive(radiance: 5))`",
     ),
     (&["spherelight", "pointlight", "light", "sun", "spotlight"], "lights stand in `lights`, beside `objects`"),
+    (
+        &["wall", "walls", "room"],
+        "a wall is a Box(size: (4, 3, 0.1)), or a Rectangle(size: (4, 3), normal: (0, 0, 1)) without thickness; a Box \
+         seen from inside is a room",
+    ),
     (&["bevel", "roundedbox", "roundbox", "chamfer"], "edges are rounded by `Box(size: 1, rounding: 0.1)`"),
     (&["empty", "null"], "what only holds others is a `Group(objects: [..])`; a point needs no object"),
     (&["line", "lines", "segment", "polyline"], "a line has a thickness: `Tube(points: [..], radius: 0.02)`"),

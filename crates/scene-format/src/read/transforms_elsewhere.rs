@@ -5,7 +5,7 @@ use super::elsewhere::{axis, degrees, fields_named, numbers};
 use crate::codes;
 use crate::desc::matrix::unnamed_rows;
 use crate::diagnostic::{Diagnostic, Edit};
-use crate::schema::FieldDef;
+use crate::schema::{FieldDef, StructDef};
 use crate::syntax::{Syntax, decode};
 use crate::tree::{Item, Kind};
 
@@ -71,6 +71,27 @@ impl Reader<'_> {
         true
     }
 
+    /// `{ translate: (0, 1, 0), rotate: (0, 45, 0) }` where a list of transforms stands: reported, with what they are.
+    pub(super) fn transforms_in_braces<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
+        let steps = item.fields().map(|(key, value)| {
+            let name = key.text().to_ascii_lowercase();
+            let three = numbers(value).and_then(|numbers| <[&str; 3]>::try_from(numbers).ok());
+            Some(match (&*name, three) {
+                ("translate" | "translation" | "position" | "location" | "move", Some(by)) => vec![translation(by)],
+                ("scale", Some(by)) => vec![scaling(by)],
+                ("rotate" | "rotation" | "rotation_euler", Some(degrees)) => all_angles(degrees),
+                _ => return None,
+            })
+        });
+        let steps: Option<Vec<Vec<Meant>>> = steps.collect();
+        let expected = match item.syntax() {
+            Syntax::Ron => "a list: [Translate((x, y, z)), Rotate(axis: (x, y, z), degrees: ..)]",
+            _ => "a list of transforms",
+        };
+        let edit = steps.map(|steps| listed(&steps.concat(), item.syntax()));
+        self.wrong_kind(item, at.noun, expected, edit)
+    }
+
     /// Numbers where a placement stands, which is a list of transforms: reports it, and says that it did.
     pub(crate) fn placement_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
         let bare = matches!(item.kind(), Kind::Tuple | Kind::List) && item.name().is_none();
@@ -126,6 +147,7 @@ fn kind_and_body<'t, 's>(item: Item<'t, 's>) -> Option<(String, Item<'t, 's>)> {
 }
 
 /// A transform, written in our way.
+#[derive(Clone)]
 struct Meant {
     kind: &'static str,
     noun: &'static str,
@@ -223,6 +245,32 @@ fn turned(body: Item<'_, '_>, list: Option<&[&str]>) -> Option<Meant> {
         (Some(degrees), None) => degrees.number().map(|_| rotation(three, degrees.lexeme(), true)),
         _ => None,
     }
+}
+
+/// Steps in the list of a syntax.
+fn listed(steps: &[Meant], syntax: Syntax) -> String {
+    let step = |meant: &Meant| match syntax {
+        Syntax::Ron => format!("{}({})", meant.kind, meant.ron),
+        syntax => syntax.of_toml(format!("{{ {} = {} }}", meant.kind, meant.toml)).into_owned(),
+    };
+    format!("[{}]", steps.iter().map(step).collect::<Vec<_>>().join(", "))
+}
+
+/// An angle for each axis, x first, as most programs turn: a step for each that is not zero.
+fn all_angles(degrees: [&str; 3]) -> Vec<Meant> {
+    let turned = ["x", "y", "z"].into_iter().zip(degrees).filter(|(_, degrees)| decode::number(degrees) != 0.0);
+    turned.filter_map(|(letter, degrees)| Some(rotation(axis(letter)?, degrees, true))).collect()
+}
+
+/// `rotation: (0, 45, 0)` of what has a `transform`: what to write for name and value.
+pub(super) fn rotation_as_field(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<String> {
+    let names = ["rotate", "rotation", "euler", "rotation_euler", "orientation"];
+    if !names.contains(&name) || def.field("transform").is_none() || value.name().is_some() {
+        return None;
+    }
+    let steps = all_angles(numbers(value)?.try_into().ok()?);
+    let name = super::elsewhere::Fields(value.syntax()).name("transform");
+    (!steps.is_empty()).then(|| format!("{name}{}", listed(&steps, value.syntax())))
 }
 
 /// An angle for each axis: one step where only one is not zero.

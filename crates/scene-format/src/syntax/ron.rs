@@ -243,11 +243,13 @@ impl<'p> Parser<'p> {
             self.sink.push(Diagnostic { edit: None, hint, ..fault });
             return self.builder.leaf(Kind::Broken, start, self.at);
         }
+        // Between quotes a backslash would begin a sign.
+        let slashed = text.replace('\\', "/");
         let found = self.span(start, self.at);
         let mut fault =
             Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("the text `{text}` is not between quotes"))
-                .hint(format!("write \"{text}\""));
-        fault.edit = Some(Edit { span: found, replacement: format!("\"{text}\"") });
+                .hint(format!("write \"{slashed}\""));
+        fault.edit = Some(Edit { span: found, replacement: format!("\"{slashed}\"") });
         self.sink.push(fault);
         self.builder.leaf(Kind::Broken, start, self.at);
     }

@@ -156,6 +156,8 @@ impl Parser<'_> {
         } else if let Some(inner) = self.single_quoted().map(str::to_owned) {
             self.at += inner.len() + 2;
             self.key_not_quoted(start, &inner, "names in { } stand between double quotes");
+        } else if length > 0 && self.text[start + length..].trim_start().starts_with('(') {
+            return self.kind_without_name(start);
         } else if length > 0 {
             // A name may have spaces; it ends before the colon.
             let line = super::line_ahead(self.text, start);
@@ -216,6 +218,23 @@ impl Parser<'_> {
         }
         self.trivia();
         self.value();
+    }
+
+    /// `{ Mirror() }`: an entry without its name, which is reported.
+    fn kind_without_name(&mut self, start: usize) {
+        let (mark, errors) = (self.builder.nodes.len(), self.sink.errors);
+        self.value();
+        self.builder.nodes.truncate(mark);
+        self.builder.leaf(Kind::Broken, start, self.at);
+        if self.sink.errors == errors {
+            let line = self.text[start..self.at].lines().next().unwrap_or("").trim_end();
+            let found = self.span(start, start + line.len().max(1));
+            self.sink.push(
+                Diagnostic::error(codes::KEY_NOT_QUOTED, found, "this entry has no name")
+                    .expected("{ \"name\": value }")
+                    .hint("write its name between quotes, and `:`, before it"),
+            );
+        }
     }
 
     /// Takes what stands from here to the reader's place for a name without its quotes, and says so.

@@ -1,5 +1,6 @@
 //! Characters of RON: white space, comments, words, what stands ahead, and the ways past what cannot be read.
 
+use super::brackets::closer_of;
 use super::ron::Parser;
 use super::ron_literal::number_kind;
 use super::{arithmetic, constructs, means_nothing, span};
@@ -372,8 +373,36 @@ impl Parser<'_> {
     pub(super) fn next_item_ahead(&self) -> bool {
         let length = self.word_length();
         let in_list = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'[';
-        in_list && length > 0 && self.rest()[length..].trim_start().starts_with('(')
+        in_list
+            && length > 0
+            && self.rest()[length..].trim_start().starts_with('(')
+            && !self.open.last().is_some_and(|open| is_closed_ahead(self.rest(), open.bracket))
     }
+}
+
+/// Whether the bracket that a text stands in is closed in it, before any other one: whatever begins the text is within.
+fn is_closed_ahead(text: &str, bracket: u8) -> bool {
+    // Objects are no longer, and a file of brackets must not take quadratic time.
+    const LONGEST: usize = 400;
+    let (mut open, mut quoted): (Vec<u8>, bool) = (vec![bracket], false);
+    for byte in text.bytes().take(LONGEST) {
+        match byte {
+            b'"' => quoted = !quoted,
+            b'\n' => quoted = false,
+            _ if quoted => {}
+            b'(' | b'[' | b'{' => open.push(byte),
+            b')' | b']' | b'}' => {
+                if open.pop().is_none_or(|open| closer_of(open) != byte) {
+                    return false;
+                }
+                if open.is_empty() {
+                    return true;
+                }
+            }
+            _ => {}
+        }
+    }
+    false
 }
 
 /// Commas of other scripts.

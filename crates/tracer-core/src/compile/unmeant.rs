@@ -37,15 +37,21 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
         let pictured =
             material.is_some_and(wants_uv) || own && data.materials.iter().any(|named| wants_uv(&named.material));
         if pictured && data.uvs.is_empty() {
-            // A material of the file has no `mapping` to write.
-            let way = if own {
+            let inline = matches!(object.geometry, Geometry::Inline(_));
+            // A material of the file has no `mapping` to write, and a mesh that is written out no coordinates.
+            let way = if inline {
+                "write `mapping: Triplanar()` in the texture, which needs none"
+            } else if own {
                 "export the mesh with UVs, or give it a material with `mapping: Triplanar()` in its texture"
             } else {
                 "write `mapping: Triplanar()` in the texture, which needs none, or export the mesh with UVs"
             };
             diagnostics.push(
                 Diagnostic::warning(codes::NO_COORDINATES, span, "the mesh has a texture and no texture coordinates")
-                    .expected("texture coordinates in the mesh file (`vt` in OBJ)")
+                    .expected(match inline {
+                        true => "a texture whose `mapping` needs no texture coordinates, which meshes written out lack",
+                        false => "texture coordinates in the mesh file (`vt` in OBJ)",
+                    })
                     .hint(format!("one colour of the texture is all that shows: {way}")),
             );
         }

@@ -34,7 +34,7 @@ scene_struct! {
 }
 
 impl Told for Rectangle {
-    const ALSO: &'static [&'static str] = &["quad", "square", "rect", "bilinearmesh", "wall"];
+    const ALSO: &'static [&'static str] = &["quad", "square", "rect", "bilinearmesh"];
     const EXAMPLE: &'static str =
         "Rectangle(center: (0, 0.5, 0), normal: (1, 1, 2), size: (3, 2), material: Diffuse(albedo: 0.6))";
 }

@@ -1,0 +1,49 @@
+//! Values that stand among fields without the names of theirs: what the name is, where the value tells it.
+
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit};
+use crate::read::field_of;
+
+/// How far back the bracket is looked for that a value stands in.
+const FAR: usize = 1000;
+
+/// Says which field is meant: a material is the `material`, a transform stands in the list of them.
+pub(crate) fn name_values(text: &str, faults: &mut [Diagnostic]) {
+    for fault in faults {
+        let is_nameless = fault.code == codes::MISSING_NAME && fault.edit.is_none() && fault.span.source == 0;
+        let place = fault.span.start as usize..fault.span.end as usize;
+        let Some(value) = text.get(place.clone()).filter(|_| is_nameless) else { continue };
+        let Some((field, mended)) = field_of(value) else { continue };
+        let is_there = fields_before(text, place.start).any(|name| name == field);
+        if is_there || !is_whole(value) {
+            continue;
+        }
+        fault.hint = format!("write `{mended}`");
+        fault.edit = Some(Edit { span: fault.span, replacement: mended });
+    }
+}
+
+/// Whether all brackets of a value are closed in it: one of several lines is told by its first.
+fn is_whole(value: &str) -> bool {
+    let count = |signs: [char; 3]| value.matches(signs).count();
+    count(['(', '[', '{']) == count([')', ']', '}'])
+}
+
+/// The names of fields between the bracket that a place stands in and the place.
+fn fields_before(text: &str, at: usize) -> impl Iterator<Item = &str> {
+    let mut depth = 0usize;
+    let far = text[..at].bytes().rev().take(FAR).position(|byte| {
+        match byte {
+            b')' | b']' | b'}' => depth += 1,
+            b'(' | b'[' | b'{' if depth == 0 => return true,
+            b'(' | b'[' | b'{' => depth -= 1,
+            _ => {}
+        }
+        false
+    });
+    let begin = at - far.unwrap_or(0);
+    text[begin..at]
+        .split(':')
+        .map(|before| before.rsplit([',', '(', ' ', '\n', '\t']).find(|word| !word.is_empty()))
+        .map(|name| name.unwrap_or(""))
+}

@@ -1,0 +1,78 @@
+//! Values without names where fields stand: what they must be of.
+
+use super::{Reader, field_list, shortened};
+use crate::codes;
+use crate::desc::{Material, Object, PlacementPattern, TransformWords};
+use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::schema::{self, StructDef};
+use crate::tree::{Item, Kind};
+
+/// The field that a value must be of, and both as they are written.
+pub(crate) fn field_of(value: &str) -> Option<(&'static str, String)> {
+    let kind = value.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).next()?;
+    if !value[kind.len()..].trim_start().starts_with('(') {
+        return None;
+    }
+    let field = match kind {
+        _ if Material::DEF.variant(kind).is_some() => return Some(("material", format!("material: {value}"))),
+        _ if TransformWords::DEF.variant(kind).is_some() => "transform",
+        _ if PlacementPattern::DEF.variant(kind).is_some() => {
+            return Some(("placements", format!("placements: {value}")));
+        }
+        _ => return None,
+    };
+    Some((field, format!("{field}: [{value}]")))
+}
+
+impl Reader<'_> {
+    /// Reports that the values of `item` have no names.
+    pub(super) fn without_names<T>(&mut self, item: Item<'_, '_>, def: &'static StructDef) -> Option<T> {
+        let values: Vec<Item<'_, '_>> = item.solid_children().take(20).collect();
+        let (first, last) = (*values.first()?, *values.last()?);
+        let message = format!("the values of {} are written with their names", def.noun);
+        let mut fault = Diagnostic::error(codes::MISSING_NAME, first.head(), message).expected(field_list(def));
+        let whole = Span { end: last.span().end, ..first.span() };
+        if let Some(rows) = super::elsewhere::matrix_rows(first).filter(|_| values.len() == 1 && def.name == "Matrix") {
+            fault.hint =
+                "four numbers are a row, and there are three: `rows: ((1, 0, 0, x), (0, 1, 0, y), (0, 0, 1, z))`"
+                    .to_owned();
+            fault.edit = Some(Edit { span: first.span(), replacement: rows });
+        } else if let Some(mended) = named(&values, def) {
+            fault.hint = format!("write `{}`", shortened(&mended));
+            fault.edit = Some(Edit { span: whole, replacement: mended });
+        } else if let [only] = def.fields {
+            fault.hint = format!("write `{}: value`", only.name);
+        } else {
+            fault.hint = format!("write the name of each: {}", super::field_words(def));
+        }
+        self.report(fault);
+        None
+    }
+}
+
+/// The values with the names of their fields, where that is certain.
+fn named(values: &[Item<'_, '_>], def: &'static StructDef) -> Option<String> {
+    let is_object = |item: &Item<'_, '_>| {
+        matches!(item.kind(), Kind::Struct | Kind::Tuple)
+            && item.name().is_some_and(|name| Object::DEF.variant(name).is_some())
+    };
+    if def.field("objects").is_some() && values.iter().all(is_object) {
+        let all: Vec<&str> = values.iter().map(Item::lexeme).collect();
+        return Some(format!("objects: [{}]", all.join(", ")));
+    }
+    if let [only] = values
+        && let Some((field, mended)) = field_of(only.lexeme())
+    {
+        return def.field(field).is_some().then_some(mended);
+    }
+    // Two points of a box may be its corners.
+    if def.name == "Box" && values.len() > 1 {
+        return None;
+    }
+    // `Uv(8)`: what fits the first fields is most probably that.
+    let fields = def.fields.iter().zip(values);
+    let fits =
+        values.len() <= def.fields.len() && fields.clone().all(|(field, value)| schema::fits(*value, &field.kind));
+    let all = || fields.map(|(field, value)| format!("{}: {}", field.name, value.lexeme())).collect::<Vec<_>>();
+    fits.then(|| all().join(", "))
+}
