@@ -81,6 +81,11 @@ fn markdown(value: String) -> MarkupContent {
     MarkupContent { kind: MarkupKind::Markdown, value }
 }
 
+/// A snippet without its signs, for editors that do not know them.
+fn plain(snippet: &str) -> String {
+    snippet.replace("$0", "").replace("\\$", "$").replace("\\}", "}").replace("\\\\", "\\")
+}
+
 fn completion(documents: &Documents, params: CompletionParams) -> Option<CompletionResponse> {
     // What is offered makes the first words of a scene, too.
     let place = params.text_document_position;
@@ -91,6 +96,7 @@ fn completion(documents: &Documents, params: CompletionParams) -> Option<Complet
     }
     let found = analysis::complete(&document.text, document.syntax, byte);
     let range = document.lines.range(&document.text, found.range.clone());
+    let format = if documents.client.snippets { InsertTextFormat::SNIPPET } else { InsertTextFormat::PLAIN_TEXT };
     let mut items: Vec<CompletionItem> = found
         .items
         .into_iter()
@@ -108,8 +114,11 @@ fn completion(documents: &Documents, params: CompletionParams) -> Option<Complet
                 .then(|| Documentation::MarkupContent(markdown(item.documentation))),
             // Ours is the order that they have in the language.
             sort_text: Some(format!("{k:04}")),
-            insert_text_format: Some(InsertTextFormat::SNIPPET),
-            text_edit: Some(CompletionTextEdit::Edit(TextEdit { range, new_text: item.snippet })),
+            insert_text_format: Some(format),
+            text_edit: Some(CompletionTextEdit::Edit(TextEdit {
+                range,
+                new_text: if documents.client.snippets { item.snippet } else { plain(&item.snippet) },
+            })),
             label: item.label,
             ..CompletionItem::default()
         })

@@ -45,14 +45,23 @@ impl Document {
 /// All of them.
 pub struct Documents {
     open: HashMap<String, Document>,
+    /// Who asks.
+    pub client: Client,
+}
+
+/// What an editor can take.
+#[derive(Clone, Copy)]
+pub struct Client {
     /// What columns count.
     pub encoding: Encoding,
+    /// Whether what is completed may say where to go on (`$0`).
+    pub snippets: bool,
 }
 
 impl Documents {
     /// None yet.
-    pub fn new(encoding: Encoding) -> Self {
-        Documents { open: HashMap::new(), encoding }
+    pub fn new(client: Client) -> Self {
+        Documents { open: HashMap::new(), client }
     }
 
     /// A text as it is now.
@@ -60,7 +69,7 @@ impl Documents {
         let path = path_of(&uri);
         let syntax = path.as_deref().and_then(Syntax::from_path).unwrap_or_else(|| Syntax::guess(&text));
         let is_scene = kin::is_scene(&text, syntax);
-        let lines = Lines::new(&text, self.encoding);
+        let lines = Lines::new(&text, self.client.encoding);
         let key = uri.as_str().to_owned();
         let faults = Arc::default();
         self.open.insert(key, Document { uri, version, text: text.into(), syntax, is_scene, path, lines, faults });

@@ -16,7 +16,7 @@ mod stdio;
 mod voice;
 
 use answers::Why;
-use documents::Documents;
+use documents::{Client, Documents};
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request};
 use lsp_types::notification::{
     DidChangeTextDocument, DidCloseTextDocument, DidOpenTextDocument, DidSaveTextDocument, Exit, Initialized,
@@ -61,8 +61,8 @@ pub fn serve(connection: &Connection) -> Result<(), Error> {
 
 /// Hears what comes over a connection until the editor says goodbye, and answers by a voice.
 fn converse(connection: &Connection, voice: Voice) -> Result<(), Error> {
-    let Some(encoding) = greeted(connection, &voice)? else { return Ok(()) };
-    let mut documents = Documents::new(encoding);
+    let Some(client) = greeted(connection, &voice)? else { return Ok(()) };
+    let mut documents = Documents::new(client);
     let looker = files::Looker::start(voice.clone());
     for message in &connection.receiver {
         match message {
@@ -84,7 +84,7 @@ fn converse(connection: &Connection, voice: Voice) -> Result<(), Error> {
 }
 
 /// Says what the server can do, and hears what columns count; `None` where nobody was there.
-fn greeted(connection: &Connection, voice: &Voice) -> Result<Option<Encoding>, Error> {
+fn greeted(connection: &Connection, voice: &Voice) -> Result<Option<Client>, Error> {
     let (id, params) = loop {
         match connection.receiver.recv() {
             Ok(Message::Request(Request { id, method, params })) if method == Initialize::METHOD => break (id, params),
@@ -107,13 +107,17 @@ fn greeted(connection: &Connection, voice: &Voice) -> Result<Option<Encoding>, E
             return Err(why.into());
         }
     };
+    let items = params.capabilities.text_document.and_then(|of| of.completion?.completion_item);
+    let snippets = items.and_then(|items| items.snippet_support) == Some(true);
     let offered = params.capabilities.general.and_then(|general| general.position_encodings).unwrap_or_default();
     let encoding = if offered.contains(&PositionEncodingKind::UTF8) { Encoding::Utf8 } else { Encoding::Utf16 };
     let server = json!({ "name": "tracer", "version": env!("CARGO_PKG_VERSION") });
     let result: Value = json!({ "capabilities": capabilities(encoding), "serverInfo": server });
     voice.answer(&id, &result.to_string())?;
     match connection.receiver.recv() {
-        Ok(Message::Notification(told)) if told.method == Initialized::METHOD => Ok(Some(encoding)),
+        Ok(Message::Notification(told)) if told.method == Initialized::METHOD => {
+            Ok(Some(Client { encoding, snippets }))
+        }
         Ok(_) => Err("expected initialized after initialize, got something else".into()),
         Err(_) => Err("the editor has gone before it was initialized".into()),
     }

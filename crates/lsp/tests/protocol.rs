@@ -272,6 +272,16 @@ fn values_show_what_they_may_be() {
     editor.close();
 }
 
+/// An editor that has not said that it knows snippets gets none of their signs.
+#[test]
+fn snippets_are_for_those_who_know_them() {
+    let mut editor = Editor::open("file:///scenes/a.ron", "Scene(camera: Camera(pos))\n");
+    let items = editor.at("textDocument/completion", 0, 24);
+    let item = items.as_array().expect("a list").iter().find(|item| item["label"] == "position").expect("a field");
+    assert_eq!((&item["insertTextFormat"], &item["textEdit"]["newText"]), (&json!(1), &json!("position: ()")));
+    editor.close();
+}
+
 /// In a header of TOML names alone are written.
 #[test]
 fn headers_get_names_alone() {

@@ -211,3 +211,20 @@ fn the_toml_crate_takes_what_loads() {
         assert!(toml::from_str::<toml::Value>(&text).is_ok(), "{text}");
     }
 }
+
+/// Materials are numbered in the order that they are written in, so it is the same in every syntax.
+#[test]
+fn the_order_of_materials_stays() {
+    let long = "BlinnPhong(albedo: Checkerboard(a: (0.8, 0.7, 0.6), b: (0.1, 0.1, 0.1), mapping: Planar(size: 0.5)), \
+                exponent: 1000, specular: 0.05)";
+    let text = format!(
+        "Scene(background: 1, materials: {{ \"b\": Mirror(), \"floor\": {long}, \"a\": Diffuse(albedo: 0.5) }},
+            objects: [Sphere(center: (0, 0, 0), radius: 1, material: \"a\")])"
+    );
+    for syntax in [Syntax::Toml, Syntax::Json] {
+        let there = convert("s", &text, Syntax::Ron, syntax).expect("right");
+        let scene = read(&there, syntax);
+        let names: Vec<&str> = scene.materials.iter().map(|named| &*named.name.value).collect();
+        assert_eq!(names, ["b", "floor", "a"], "{there}");
+    }
+}

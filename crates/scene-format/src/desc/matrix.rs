@@ -3,7 +3,7 @@
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::form::Form;
-use crate::read::{Reader, expected_for, is_expression, shortened};
+use crate::read::{Reader, expected_for, hinted, is_expression};
 use crate::schema::{FieldDef, MIN_LENGTH, Rule, Type, is_rows};
 use crate::syntax::{Syntax, decode};
 use crate::tree::{Item, Kind};
@@ -102,7 +102,7 @@ fn other_form<T>(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static Field
     let mut fault = Diagnostic::error(codes::WRONG_COUNT, item.head(), message).expected(expected_for(at, item));
     match mended {
         Some(mended) => {
-            fault = fault.hint(format!("write {}", shortened(&mended)));
+            fault = fault.hint(format!("write {}", hinted(&mended)));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
         }
         None if found.contains("16 numbers") => {

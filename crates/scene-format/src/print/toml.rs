@@ -71,13 +71,18 @@ fn body(out: &mut String, path: &str, form: &Form) {
     match form {
         Form::Struct { fields, .. } => fields.iter().for_each(|entry| line(out, entry)),
         Form::Map(entries) => {
-            let (short, long): (Vec<&Entry>, Vec<&Entry>) = entries.iter().partition(|entry| fits(entry));
-            short.iter().for_each(|entry| line(out, entry));
-            for entry in long {
-                let Form::Variant { name, content: Some(content) } = &entry.value else {
-                    line(out, entry);
-                    continue;
-                };
+            // In their order, which numbers them: what follows on a header has one, too.
+            let tabled = |entry: &Entry| {
+                let variant = matches!(&entry.value, Form::Variant { content: Some(content), .. }
+                    if matches!(**content, Form::Struct { .. }));
+                variant && entry.value != Form::Absent
+            };
+            let first = entries.iter().position(|entry| tabled(entry) && !fits(entry)).unwrap_or(entries.len());
+            let is_line = |(k, entry): &(usize, &Entry)| *k < first || !tabled(entry);
+            let (short, long): (Vec<_>, Vec<_>) = entries.iter().enumerate().partition(is_line);
+            short.iter().for_each(|(_, entry)| line(out, entry));
+            for (_, entry) in long {
+                let Form::Variant { name, content: Some(content) } = &entry.value else { continue };
                 let path = format!("{path}.{}.{name}", key(&entry.name));
                 blank(out);
                 sub_table(out, &path, entry, content);

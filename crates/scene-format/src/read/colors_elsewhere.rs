@@ -216,6 +216,8 @@ impl Reader<'_> {
         } else if let Some(number) = before_unit(&text) {
             fault.hint = format!("numbers carry no unit: write {number}");
             fault.edit = Some(Edit { span: item.span(), replacement: number.to_owned() });
+        } else if let Some(sign) = digits.chars().find(|c| !c.is_ascii_hexdigit()).filter(|_| text.starts_with('#')) {
+            fault.hint = format!("`{sign}` is no hexadecimal digit, which are 0 to 9 and a to f");
         } else if hex && text.starts_with('#') {
             fault.hint = format!("this has {} digits; it needs two for each of red, green and blue", digits.len());
         } else if is_picture(&text) && expected_for(at, item).contains("Texture") {

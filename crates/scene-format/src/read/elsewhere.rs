@@ -321,7 +321,7 @@ impl Reader<'_> {
             let message = format!("a material cannot be {}", super::describe(item));
             let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
                 .expected("a material with this colour, or the name of one")
-                .hint(format!("write {}", super::shortened(&diffuse)));
+                .hint(format!("write {}", super::hinted(&diffuse)));
             fault.edit = Some(Edit { span: item.span(), replacement: diffuse });
             self.report(fault);
             return true;

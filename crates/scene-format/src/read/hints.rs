@@ -60,6 +60,15 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
 /// Where a field belongs that stands in the wrong group: `samples` in the image.
 pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_>) -> Option<String> {
     let toml = item.syntax() == Syntax::Toml;
+    if toml && def.name == "Scene" {
+        // Headers of TOML have the whole way.
+        if Object::DEF.variant(name).is_some() {
+            return Some(format!("an object begins with two lines: [[objects]] and [objects.{name}]"));
+        }
+        if Material::DEF.variant(name).is_some() {
+            return Some(format!("a material with the name red begins with [materials.red.{name}]"));
+        }
+    }
     if def.name != "Scene" && Scene::DEF.field(name).is_some() {
         return Some(match toml {
             // What stands below a header belongs to it.

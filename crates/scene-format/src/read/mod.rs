@@ -48,7 +48,7 @@ use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
 pub(crate) use synonyms::synonyms;
 use told::{SHOWN, article_free, field_list, field_words};
-pub(crate) use told::{describe, plain, shortened};
+pub(crate) use told::{describe, hinted, plain, shortened};
 pub(crate) use value::{expected, expected_for, hex_color, linear_from_srgb, none};
 pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
@@ -559,10 +559,10 @@ impl<'r> Reader<'r> {
             Diagnostic::error(codes::WRONG_TYPE, item.head(), format!("{} cannot be {}", plain(noun), describe(item)))
                 .expected(expected);
         if let Some(replacement) = edit {
-            fault.hint = if replacement.chars().count() > SHOWN && replacement.starts_with('[') {
+            fault.hint = if replacement.chars().count() > 3 * SHOWN && replacement.starts_with('[') {
                 "put square brackets around it".to_owned()
             } else {
-                format!("write {}", shortened(&replacement))
+                format!("write {}", hinted(&replacement))
             };
             fault.edit = Some(Edit { span: item.span(), replacement });
         }

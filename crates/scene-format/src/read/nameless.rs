@@ -1,6 +1,6 @@
 //! Values without names where fields stand: what they must be of.
 
-use super::{Reader, field_list, shortened};
+use super::{Reader, field_list, hinted};
 use crate::codes;
 use crate::desc::{Material, Object, PlacementPattern, TransformWords};
 use crate::diagnostic::{Diagnostic, Edit, Span};
@@ -38,7 +38,7 @@ impl Reader<'_> {
                     .to_owned();
             fault.edit = Some(Edit { span: first.span(), replacement: rows });
         } else if let Some(mended) = named(&values, def) {
-            fault.hint = format!("write `{}`", shortened(&mended));
+            fault.hint = format!("write `{}`", hinted(&mended));
             fault.edit = Some(Edit { span: whole, replacement: mended });
         } else if let [only] = def.fields {
             fault.hint = format!("write `{}: value`", only.name);

@@ -43,11 +43,20 @@ pub(super) const SHOWN: usize = 40;
 
 /// The first characters of something that may be long.
 pub(crate) fn shortened(text: &str) -> String {
+    first(text, SHOWN)
+}
+
+/// What is to be written instead: it can only be followed where it is whole.
+pub(crate) fn hinted(text: &str) -> String {
+    first(text, 3 * SHOWN)
+}
+
+fn first(text: &str, most: usize) -> String {
     let line = text.lines().next().unwrap_or("");
-    if line.len() == text.len() && line.chars().count() <= SHOWN {
+    if line.len() == text.len() && line.chars().count() <= most {
         return line.to_owned();
     }
-    let head: String = line.chars().take(SHOWN - 2).collect();
+    let head: String = line.chars().take(most - 2).collect();
     format!("{head}..")
 }
 

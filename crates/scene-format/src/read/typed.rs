@@ -2,7 +2,7 @@
 
 use super::hints::{kind_elsewhere, other_kind};
 use super::variant::{choices, of_kind};
-use super::{Reader, shortened};
+use super::{Reader, hinted, shortened};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::schema::{Content, EnumDef, VariantDef};
@@ -47,7 +47,7 @@ impl Reader<'_> {
             Some(variant) => {
                 let written = inside_out(item, key, value, variant);
                 fault.hint = match &written {
-                    Some(written) => format!("write `{}`", shortened(&written.replace('\n', " "))),
+                    Some(written) => format!("write `{}`", hinted(&written.replace('\n', " "))),
                     None => format!("write `{}`", way(variant, item.syntax())),
                 };
                 fault.edit = written.map(|replacement| Edit { span: item.span(), replacement });

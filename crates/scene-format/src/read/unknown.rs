@@ -4,7 +4,7 @@ use super::elsewhere::{self, Fields};
 use super::hints::{self, field_of_others, other_way, right_place};
 use super::synonyms::synonyms;
 use super::value::expected_for;
-use super::{LOOK_AT, Reader, field_list, is_expression, names, pattern_fields, shortened, together};
+use super::{LOOK_AT, Reader, field_list, hinted, is_expression, names, pattern_fields, together};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{FieldDef, StructDef, Type};
@@ -111,7 +111,7 @@ impl Reader<'_> {
                 self.report(fault);
                 return Meant::Nothing;
             }
-            fault.hint = format!("write `{}`", shortened(&mended));
+            fault.hint = format!("write `{}`", hinted(&mended));
             fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
             self.report(fault);
             return meant.map_or(Meant::Nothing, Meant::Field);

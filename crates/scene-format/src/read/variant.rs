@@ -284,7 +284,7 @@ impl Reader<'_> {
                             format!("{} is one vector, with brackets of its own", plain(at.noun)),
                         )
                         .expected(format!("{}((x, y, z))", chosen.variant.name))
-                        .hint(format!("write {}", super::shortened(&replacement)));
+                        .hint(format!("write {}", super::hinted(&replacement)));
                         fault.edit = Some(Edit { span: item.span(), replacement });
                         self.report(fault);
                         None

@@ -15,7 +15,7 @@ pub use identity::{Asked, Extent, differences, is_of_scene, note_differences, no
 pub use picture::{look, mattes, mattes_told, picture_layers, picture_notes, provenance};
 pub use place::{BESIDE, Lock, Place};
 pub use read::{Found, is_film, look_for};
-pub use record::{Record, RecordedFile, assets_hash, told_name};
+pub use record::{Record, RecordedFile, SHOW, assets_hash, told_name};
 pub use told::{as_json, as_text, note, part_told};
 
 use crate::memory::human;

@@ -6,7 +6,7 @@ use crate::command_line::quoted;
 use crate::write::sha256;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use tracer_core::{Crop, Film, LayerSet, Note, PROGRAM, Plan};
+use tracer_core::{Crop, Film, Layer, LayerSet, Note, PROGRAM, Plan};
 
 /// What a picture was made with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,6 +36,9 @@ pub struct Record {
     pub crop: [u32; 4],
     /// How it was denoised; none where it was not.
     pub denoise: Option<String>,
+    /// The layer that it shows in place of the picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub show: Option<String>,
     /// The files of the scene; none where they are not told.
     pub files: Option<Vec<RecordedFile>>,
     /// Hash over their contents.
@@ -53,6 +56,9 @@ pub struct RecordedFile {
 
 /// The version that is written, and the only one that is read.
 pub const RECORD_VERSION: u32 = 1;
+
+/// The note of the layer that is shown in place of a picture.
+pub const SHOW: &str = "show";
 
 /// How the names of notes of files begin.
 const FILE: &str = "file:";
@@ -99,6 +105,7 @@ impl Record {
             exposure: first(notes, "exposure").parse().unwrap_or_default(),
             crop: [x, y, width, height],
             denoise: denoise.map(str::to_owned),
+            show: Some(first(notes, SHOW).to_owned()).filter(|show| !show.is_empty()),
             files: is_told.then(|| notes.iter().filter_map(of_file).collect()),
             assets: assets_hash(notes),
         }
@@ -155,6 +162,11 @@ impl Record {
         Crop { x, y, width, height }
     }
 
+    /// The layer that it shows in place of the picture.
+    pub fn shown(&self) -> Option<Layer> {
+        LayerSet::by_name(self.show.as_deref()?)
+    }
+
     /// The options that make the picture of the scene file, with these layers.
     fn options(&self, layers: LayerSet) -> Vec<String> {
         let mut words = Vec::new();
@@ -172,6 +184,9 @@ impl Record {
         let [x, y, width, height] = self.crop;
         if self.crop() != Crop::whole(self.size) {
             option("--crop", format!("{x},{y},{width},{height}"));
+        }
+        if let Some(show) = &self.show {
+            option("--show", show.clone());
         }
         if !layers.is_empty() {
             option("--layers", layers.names().collect::<Vec<_>>().join(","));
@@ -207,6 +222,7 @@ mod tests {
             exposure: -0.5,
             crop: [8, 0, 16, 24],
             denoise: Some("on".to_owned()),
+            show: None,
             files: Some(Vec::new()),
             assets: None,
         }

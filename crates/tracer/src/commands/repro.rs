@@ -4,7 +4,7 @@ use super::from_picture::{layers, record, rendered, told};
 use super::render::check_memory;
 use crate::args::{DenoiseName, DiagnosticsForm, ReproArgs};
 use crate::checkpoint::{
-    Hashes, Record, RecordedFile, files_are_told, note_differences, picture_notes, provenance, told_name,
+    Hashes, Record, RecordedFile, SHOW, files_are_told, note_differences, picture_notes, provenance, told_name,
 };
 use crate::command_line::printable;
 use crate::compare::Picture;
@@ -16,12 +16,12 @@ use crate::loading::{
 use crate::progress::Watch;
 use crate::shell::Shell;
 use crate::write::{Encoding, OutputKind, encode, is_one_file, probe, save, sha256, spare_other};
-use crate::{interrupt, lanes};
+use crate::{interrupt, lanes, layer_view};
 use scene_format::{MAX_FILE_BYTES, SceneDesc};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use tracer_core::{Note, PROGRAM, RenderOptions, Scene, layer_set, render};
+use tracer_core::{Note, PROGRAM, RenderOptions, Scene, layer_set, layer_word, render};
 use tracer_picture::Told;
 
 pub(super) fn run(args: &ReproArgs, shell: &Shell) -> Result<ExitCode, Failure> {
@@ -42,8 +42,11 @@ pub(super) fn run(args: &ReproArgs, shell: &Shell) -> Result<ExitCode, Failure> 
         let tip = if args.scene.is_some() { "" } else { "; --scene FILE says where its scene lies" };
         return Err(not_again(&shown.to_string(), &missing, tip));
     }
-    let desc = rendered(&record, layers(&told), &text, &folder)
+    let mut desc = rendered(&record, layers(&told), &text, &folder)
         .map_err(|error| told_load(with_faults_of_files(error, &folder), DiagnosticsForm::Text, shell))?;
+    if let Some(layer) = record.shown() {
+        desc.output.layers.push(layer_word(layer));
+    }
     let scene = compile(&desc, DiagnosticsForm::Text, Known::Nothing, &shell.without_warnings())?;
     spare_files(args, &scene.files)?;
     let Some(mut files) = Hashes::default().begin(&scene.files, &folder, args.threads).end() else {
@@ -245,6 +248,10 @@ fn again(
         image.mattes = scene.mattes.develop(&film);
     }
     let mut notes = picture_notes(&desc, &scene.mattes, &record.set);
+    if let Some(layer) = record.shown().and_then(|layer| film.layer(layer)) {
+        (image, _) = layer_view::picture(&layer, film.crop().width);
+        notes.extend(record.show.clone().map(|show| (SHOW.to_owned(), show)));
+    }
     if record.files.is_some() || record.assets.is_some() {
         notes.extend(files.iter().cloned().chain([files_are_told()]));
     }

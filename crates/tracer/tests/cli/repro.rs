@@ -40,6 +40,12 @@ fn pictures_are_made_again_to_the_byte() {
         .run(&["render", "scenes/a.ron", "-o", "scenes/d.png", "--bits", "16", "--denoise", "--samples", "4"])
         .ends(0);
     sandbox.run(&["repro", "scenes/d.png", "-q"]).ends(0).silent();
+    // A layer in place of the picture.
+    for layer in ["depth", "material_id"] {
+        sandbox.run(&["render", "scenes/a.ron", "-o", "scenes/s.png", "--show", layer, "--samples", "2"]).ends(0);
+        sandbox.run(&["repro", "scenes/s.png"]).ends(0).says(&["made again, the same bytes"]);
+        sandbox.run(&["info", "scenes/s.png"]).ends(0).says(&[&format!("--show {layer}")]);
+    }
     // What a checkpoint or parts have gone through tells the same.
     let kept = ["--checkpoint", "a.checkpoint"];
     sandbox.run(&[&["render", "scenes/a.ron", "-o", "b.exr"], &OPTIONS[..], &others, &kept].concat()).ends(0);

@@ -99,7 +99,10 @@ fn acceptance<'a>(opened: &'a Opened, name: &str, read: &[PathBuf]) -> Result<Ac
     let made = Made::of(&opened.made(), name);
     let again = format!("`tracer golden run {folder} --only {name}` makes one");
     let Some(Record { stamp: known, files, .. }) = made.record()? else {
-        return Err(Failure::wrong(format!("{folder}/{name}: no picture waits to be accepted; {again}")));
+        let why = "no picture waits to be accepted: either none was made yet, or what was made is as expected";
+        return Err(Failure::wrong(format!(
+            "{folder}/{name}: {why}; `tracer golden run {folder} --only {name}` tells"
+        )));
     };
     let now = match load(case, &opened.settings) {
         Ok(desc) => Some(stamp(&desc, &files)),

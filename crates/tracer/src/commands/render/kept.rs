@@ -10,7 +10,7 @@ use crate::loading::is_dash;
 use crate::shell::{Shell, Verbosity};
 use crate::write::Provenance;
 use scene_format::SceneDesc;
-use tracer_core::{Film, Note, Scene};
+use tracer_core::{Film, LayerSet, Note, Scene};
 
 /// The places, locked before any work is done.
 pub(super) struct Places {
@@ -135,5 +135,10 @@ pub(super) fn hashed(hashing: Option<Hashing>, shell: &Shell) -> Vec<Note> {
 
 /// What pictures tell of themselves, if they may.
 pub(super) fn provenance(args: &RenderArgs, notes: &[Note], film: &Film, denoised: Option<&str>) -> Provenance {
-    if args.no_metadata { Provenance::hidden() } else { checkpoint::provenance(notes, film, denoised) }
+    if args.no_metadata {
+        return Provenance::hidden();
+    }
+    let show = args.show.map(|layer| (checkpoint::SHOW.to_owned(), LayerSet::from_iter([layer]).to_string()));
+    let notes: Vec<Note> = notes.iter().cloned().chain(show).collect();
+    checkpoint::provenance(&notes, film, denoised)
 }
