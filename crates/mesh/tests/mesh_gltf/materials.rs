@@ -211,7 +211,7 @@ fn texture_transforms_are_those_of_other_programs() {
     assert_eq!(*b, [0.5, 1.0, 1.0].into());
     assert_ne!(texture.mapping, Mapping::default());
     let [[a, b, x], [c, d, y]] = texture.mapping.by_uv().expect("by coordinates").rows();
-    let (sin, cos) = rotation.sin_cos();
+    let (sin, cos) = (libm::sin(rotation), libm::cos(rotation));
     for [u, v] in [[0.0, 0.0], [1.0, 0.0], [0.3, 0.9]] {
         let expected =
             [offset[0] + cos * scale[0] * u + sin * scale[1] * v, offset[1] - sin * scale[0] * u + cos * scale[1] * v];
