@@ -36,14 +36,14 @@ pub struct MeshData {
     /// The colours of all vertices, as many as `positions`; `None` where the file has none, or where nobody wanted them
     /// ([`Wanted`](crate::Wanted)).
     pub colors: Option<VertexColors>,
-    /// The materials of the file, or of its MTL files, that triangles use, in order of first use. File names of textures
-    /// are complete: they start at the folder of the MTL file as this mesh's path gave it, and must not be joined to the
-    /// scene's folder again. A picture within a glTF file is called as [`file_of`](crate::file_of) says.
+    /// The materials of the file, or of its MTL files, that triangles use, in order of first use. File names of
+    /// textures are complete: they start at the folder of the MTL file as this mesh's path gave it, and must not be
+    /// joined to the scene's folder again. A picture within a glTF file is called as [`file_of`](crate::file_of) says.
     pub materials: Vec<NamedMaterial>,
     /// Index into `materials` per triangle, or [`NO_INDEX`]; empty: all have the default.
     pub triangle_material: Vec<u32>,
-    /// What the file names of materials, where its triangles use them: what `materials` and `triangle_material` were made
-    /// of.
+    /// What the file names of materials, where its triangles use them: what `materials` and `triangle_material` were
+    /// made of.
     pub material_names: MaterialNames,
     /// Further files that were read for it: MTL files, buffers of glTF.
     pub libraries: Vec<PathBuf>,

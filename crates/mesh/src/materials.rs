@@ -8,9 +8,9 @@ use super::{gltf, mtl};
 use std::path::Path;
 
 impl MeshData {
-    /// Reads the materials of its triangles anew, for a mesh that was kept without them: what its file, its MTL files and
-    /// the pictures that these name are now. Says whether the same names are defined as when `triangle_material` was
-    /// made.
+    /// Reads the materials of its triangles anew, for a mesh that was kept without them: what its file, its MTL files
+    /// and the pictures that these name are now. Says whether the same names are defined as when `triangle_material`
+    /// was made.
     ///
     /// # Errors
     /// When an MTL file is broken, or the materials of a glTF file are.

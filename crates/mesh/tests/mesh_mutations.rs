@@ -183,7 +183,8 @@ const GLTF: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nod
    "KHR_materials_volume": {"attenuationDistance": 1}, "KHR_materials_emissive_strength": {"emissiveStrength": 1}}}],
 "textures": [{"source": 0, "sampler": 0}], "samplers": [{"wrapS": 33071, "magFilter": 9728}],
 "images": [{"bufferView": 3, "mimeType": "image/png"}],
-"buffers": [{"byteLength": 142, "uri": "data:application/octet-stream;base64,DATA"}], "extensionsUsed": ["KHR_mesh_quantization", "KHR_materials_ior"]}"#;
+"buffers": [{"byteLength": 142, "uri": "data:application/octet-stream;base64,DATA"}],
+"extensionsUsed": ["KHR_mesh_quantization", "KHR_materials_ior"]}"#;
 
 fn gltf_buffer() -> Vec<u8> {
     let square = [[0.0_f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

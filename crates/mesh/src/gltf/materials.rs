@@ -7,18 +7,18 @@
 //! - `emissiveFactor` (times `emissiveStrength`) not black: emissive to both sides, `radiance` = that; such surfaces
 //!   reflect nothing.
 //!   With an `emissiveTexture`, which mostly lets a few places shine, only where the base colour is black;
-//! - `transmissionFactor` at least 1/2: transparent, `ior` its own (1.5 if absent), `transmittance` = the base colour. It
-//!   is a body, also where glTF has a thin wall, which would not refract: programs export closed glass so, and of open
-//!   one a warning tells;
+//! - `transmissionFactor` at least 1/2: transparent, `ior` its own (1.5 if absent), `transmittance` = the base colour.
+//!   It is a body, also where glTF has a thin wall, which would not refract: programs export closed glass so, and of
+//!   open one a warning tells;
 //! - `metallicFactor` at least 1/2, and no picture that says where: a conductor, `reflectance` = the base colour,
 //!   `roughness` as glTF has it;
-//! - `roughnessFactor` below 1/2, and no picture: Blinn-Phong with the lobe of that width (alpha = roughness^2, exponent
-//!   = 2 / alpha^2 - 2), a share of 0.04 of it;
+//! - `roughnessFactor` below 1/2, and no picture: Blinn-Phong with the lobe of that width (alpha = roughness^2,
+//!   exponent = 2 / alpha^2 - 2), a share of 0.04 of it;
 //! - else diffuse, `albedo` = the base colour. The gloss of 4 % that glTF gives all that is no metal is left out.
 //!
 //! The base colour is `baseColorFactor` times the picture of `baseColorTexture`, with `KHR_texture_transform`; that of
-//! `KHR_materials_pbrSpecularGlossiness` is its diffuse colour. Occlusion is reckoned here, and its picture passed over.
-//! What goes beyond this is told in one warning `W0511` per mesh. Only materials that triangles use are turned.
+//! `KHR_materials_pbrSpecularGlossiness` is its diffuse colour. Occlusion is reckoned here, and its picture passed
+//! over. What goes beyond this is told in one warning `W0511` per mesh. Only materials that triangles use are turned.
 
 use super::document::{Document, Element, List};
 use super::is_data;
@@ -390,8 +390,9 @@ fn shining(radiance: Color, color: Albedo) -> Material {
     Material::Emissive(Box::new(Emissive { amount, color, two_sided: true, group: LightGroup::default() }))
 }
 
-/// `KHR_texture_transform`, whose v runs downwards, in coordinates whose v runs upwards. There it is offset + R(scale uv)
-/// with a rotation that is counter-clockwise to the eye, so that u' = c s_u u + s s_v v and v' = -s s_u u + c s_v v.
+/// `KHR_texture_transform`, whose v runs downwards, in coordinates whose v runs upwards. There it is offset + R(scale
+/// uv) with a rotation that is counter-clockwise to the eye, so that u' = c s_u u + s s_v v and v' = -s s_u u + c s_v
+/// v.
 fn upwards(transform: &UvTransform) -> Mapping {
     let UvTransform { offset: [x, y], rotation, scale: [u, v], .. } = *transform;
     let (sin, cos) = (libm::sin(rotation), libm::cos(rotation));

@@ -10,8 +10,8 @@
 //!   mesh.
 //! - Its materials, as far as the scene language has such ([`materials`](mod@materials)), with pictures beside the file
 //!   and within it.
-//! - Required extensions that are known are `KHR_mesh_quantization` and `EXT_mesh_gpu_instancing`; those of materials and
-//!   textures are told with them, those of lights are passed over. Another is an error `E0513`.
+//! - Required extensions that are known are `KHR_mesh_quantization` and `EXT_mesh_gpu_instancing`; those of materials
+//!   and textures are told with them, those of lights are passed over. Another is an error `E0513`.
 //! - Skins, morph targets, animations and optional extensions are told in a warning `W0512`.
 //!
 //! A few bytes of a file may say that a mesh stands in a million places, or a million zeros: what all of it takes is at

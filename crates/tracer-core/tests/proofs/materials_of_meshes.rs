@@ -1,5 +1,5 @@
-//! Materials of glTF files are what they are turned into: the same picture, byte for byte, as with that material written
-//! in the scene.
+//! Materials of glTF files are what they are turned into: the same picture, byte for byte, as with that material
+//! written in the scene.
 
 use crate::support::meshes::picture;
 use scene_format::{Syntax, load_str};

@@ -26,12 +26,12 @@ scene_struct! {
         /// Transforms, applied first to last.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
-        /// name of a placements file, one placement a line.
+        /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
         placements: Placements = Placements::One => Rule::file(FileKind::Placements);
         /// Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows,
         /// shines, and is seen in mirrors and through glass.
         camera_visible: bool = true;
-        /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+        /// What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
         name: Name = Name::default();
     }
 }

@@ -60,8 +60,8 @@ scene_struct! {
     /// A triangle mesh, from a file or written out as `points` and `faces`.
     pub(crate) struct MeshWords as "Mesh", "a mesh", exactly one of [file, points] {
         /// OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene
-        /// are taken, where its nodes place them, with its materials and pictures, and the colours of its vertices where
-        /// a `VertexColor` reads them; its lights, cameras, skins, morph targets and animations are not.
+        /// are taken, where its nodes place them, with its materials and pictures, and the colours of its vertices
+        /// where a `VertexColor` reads them; its lights, cameras, skins, morph targets and animations are not.
         file: WrittenFile = WrittenFile::default() => Rule::file(FileKind::Mesh);
         /// With `file`: only this part of it, as if the file held nothing else. In OBJ the faces of objects (`o`) and
         /// groups (`g`) of this name, in glTF nodes, with all that is below them, and meshes of this name; all of them
@@ -90,7 +90,7 @@ scene_struct! {
         /// Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows,
         /// shines, and is seen in mirrors and through glass.
         camera_visible: bool = true;
-        /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+        /// What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
         name: Name = Name::default();
     }
 }

@@ -32,7 +32,7 @@ scene_struct! {
         /// Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows,
         /// shines, and is seen in mirrors and through glass.
         camera_visible: bool = true;
-        /// What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+        /// What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
         name: Name = Name::default();
     }
 }

@@ -1,7 +1,8 @@
 //! Meshes of files as they were read.
 //!
 //! A mesh goes by the contents of its file alone: what its warnings tell of, and where its other files lie, is told
-//! anew by its path. Materials are read again, since they go by files and pictures that may come and go; the contents of a glTF file's buffers are told by their hashes.
+//! anew by its path. Materials are read again, since they go by files and pictures that may come and go; the contents
+//! of a glTF file's buffers are told by their hashes.
 
 use super::file::{self, KeptError, KeptFile, KeptKind};
 use super::{ContentHash, Key, Stamp, Store, Told};

@@ -113,7 +113,8 @@ fn gltf() -> (String, Vec<u8>) {
     let (all, rest, indices) = (bytes.len(), bytes.len() - first, 6 * SIDE * SIDE);
     let text = format!(
         r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}], "nodes": [{{"mesh": 0}}],
-        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1, "material": 1}}]}}], "skins": [{{"joints": [0]}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1, "material": 1}}]}}],
+        "skins": [{{"joints": [0]}}],
         "materials": [{{}}, {{"name": "brass", "normalTexture": {{"index": 0}}}}],
         "buffers": [{{"uri": "b.bin", "byteLength": {all}}}],
         "bufferViews": [{{"buffer": 0, "byteLength": {first}}},
