@@ -12,10 +12,10 @@ mod told;
 pub use flushing::Flushing;
 pub use hashes::{HashOf, Hashes, Hashing, files_are_told};
 pub use identity::{Asked, Extent, differences, is_of_scene, note_differences, notes, now, sha256_of};
-pub use picture::{look, mattes, mattes_told, picture_layers, picture_notes, provenance};
+pub use picture::{look, mattes, mattes_told, picture_layers, picture_notes, provenance, show_note};
 pub use place::{BESIDE, Lock, Place};
 pub use read::{Found, is_film, look_for};
-pub use record::{Record, RecordedFile, SHOW, assets_hash, told_name};
+pub use record::{Record, RecordedFile, assets_hash, told_name};
 pub use told::{as_json, as_text, note, part_told};
 
 use crate::memory::human;

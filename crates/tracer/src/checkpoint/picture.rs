@@ -36,6 +36,11 @@ pub fn picture_notes(desc: &SceneDesc, mattes: &Mattes, set: &[String]) -> Vec<N
     notes
 }
 
+/// The note of a layer that is shown in place of the picture.
+pub fn show_note(layer: &str) -> Note {
+    note("show", layer.to_owned())
+}
+
 pub(super) fn all<'a>(notes: &'a [Note], name: &'a str) -> impl Iterator<Item = &'a str> {
     notes.iter().filter(move |(of, _)| of.strip_prefix(NOTE) == Some(name)).map(|(_, value)| value.as_str())
 }

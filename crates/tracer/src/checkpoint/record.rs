@@ -57,9 +57,6 @@ pub struct RecordedFile {
 /// The version that is written, and the only one that is read.
 pub const RECORD_VERSION: u32 = 1;
 
-/// The note of the layer that is shown in place of a picture.
-pub const SHOW: &str = "show";
-
 /// How the names of notes of files begin.
 const FILE: &str = "file:";
 
@@ -105,7 +102,7 @@ impl Record {
             exposure: first(notes, "exposure").parse().unwrap_or_default(),
             crop: [x, y, width, height],
             denoise: denoise.map(str::to_owned),
-            show: Some(first(notes, SHOW).to_owned()).filter(|show| !show.is_empty()),
+            show: Some(first(notes, "show").to_owned()).filter(|show| !show.is_empty()),
             files: is_told.then(|| notes.iter().filter_map(of_file).collect()),
             assets: assets_hash(notes),
         }

@@ -4,7 +4,7 @@ use super::from_picture::{layers, record, rendered, told};
 use super::render::check_memory;
 use crate::args::{DenoiseName, DiagnosticsForm, ReproArgs};
 use crate::checkpoint::{
-    Hashes, Record, RecordedFile, SHOW, files_are_told, note_differences, picture_notes, provenance, told_name,
+    Hashes, Record, RecordedFile, files_are_told, note_differences, picture_notes, provenance, show_note, told_name,
 };
 use crate::command_line::printable;
 use crate::compare::Picture;
@@ -250,7 +250,7 @@ fn again(
     let mut notes = picture_notes(&desc, &scene.mattes, &record.set);
     if let Some(layer) = record.shown().and_then(|layer| film.layer(layer)) {
         (image, _) = layer_view::picture(&layer, film.crop().width);
-        notes.extend(record.show.clone().map(|show| (SHOW.to_owned(), show)));
+        notes.extend(record.show.as_deref().map(show_note));
     }
     if record.files.is_some() || record.assets.is_some() {
         notes.extend(files.iter().cloned().chain([files_are_told()]));

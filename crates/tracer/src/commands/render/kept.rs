@@ -138,7 +138,7 @@ pub(super) fn provenance(args: &RenderArgs, notes: &[Note], film: &Film, denoise
     if args.no_metadata {
         return Provenance::hidden();
     }
-    let show = args.show.map(|layer| (checkpoint::SHOW.to_owned(), LayerSet::from_iter([layer]).to_string()));
+    let show = args.show.map(|layer| checkpoint::show_note(&LayerSet::from_iter([layer]).to_string()));
     let notes: Vec<Note> = notes.iter().cloned().chain(show).collect();
     checkpoint::provenance(&notes, film, denoised)
 }
