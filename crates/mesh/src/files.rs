@@ -1,7 +1,5 @@
 //! Reading a whole input file, of the disk or of memory, and what can go wrong before its first byte is looked at.
 
-use super::format::MeshFormat;
-use super::gltf;
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, codes, plain_path};
 use std::collections::BTreeMap;
@@ -46,33 +44,10 @@ impl Files {
         self.get(path).map_or_else(|| read_regular_file(path), |bytes| Ok(bytes.to_vec()))
     }
 
-    /// All bytes of a picture: a file, or a part of a glTF file ([`file_of`]).
-    ///
-    /// # Errors
-    /// As [`read_regular_file`], and where a glTF file has no such picture.
-    pub fn read_picture(&self, path: &Path) -> Result<Vec<u8>, FileError> {
-        let Some((file, index)) = within(path) else { return self.read(path) };
-        let bytes = self.read(file)?;
-        let found = gltf::picture(&bytes, (file, self), index);
-        found.map_err(|why| FileError::Within { file: file.to_owned(), why })
-    }
-
     /// Whether there is such a file.
     pub fn has(&self, path: &Path) -> bool {
         self.get(path).is_some() || path.is_file()
     }
-}
-
-/// The file of the disk that a path leads into: of a picture within a glTF file, `duck.glb/images[0]`, that file.
-pub fn file_of(path: &Path) -> &Path {
-    within(path).map_or(path, |(file, _)| file)
-}
-
-/// The glTF file that a path leads into, and the number of its picture.
-fn within(path: &Path) -> Option<(&Path, u32)> {
-    let (name, file) = (path.file_name()?.to_str()?, path.parent()?);
-    let index = name.strip_prefix("images[")?.strip_suffix(']')?.parse().ok()?;
-    matches!(MeshFormat::of(file), Some(MeshFormat::Gltf | MeshFormat::Glb)).then_some((file, index))
 }
 
 /// A mesh, texture, placements or MTL file that could not be read at all.

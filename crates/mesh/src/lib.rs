@@ -42,6 +42,7 @@ mod parts;
 mod ply;
 mod polygon;
 mod stl;
+mod within;
 
 mod error;
 pub mod normals;
@@ -52,9 +53,10 @@ pub use arrays::MeshArrays;
 pub use colors::{ColorValues, VertexColors, Wanted};
 pub use data::{MAX_COORDINATE, MaterialNames, MeshData, NO_INDEX};
 pub use error::{MeshError, Place};
-pub use files::{FileError, Files, file_of, read_regular_file};
+pub use files::{FileError, Files, read_regular_file};
 pub use format::MeshFormat;
 pub use inline::mesh_of;
+pub use within::file_of;
 
 use std::path::Path;
 

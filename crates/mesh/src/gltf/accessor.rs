@@ -293,7 +293,7 @@ impl<'a> Buffers<'a> {
                     return Err(Fault::new(at, format!("{label} has no `uri`"), expected));
                 }
             },
-            Some(uri) => match super::is_data(&uri) {
+            Some(uri) => match is_data(&uri) {
                 true => Bytes::Own(Arc::new(decoded(&uri, at, &label)?)),
                 false => self.file(&uri, at, &label)?,
             },
@@ -442,6 +442,11 @@ impl<'a> Buffers<'a> {
         }
         Ok(Sparse { indices, values })
     }
+}
+
+/// Whether a URI holds its data itself.
+pub(super) fn is_data(uri: &str) -> bool {
+    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }
 
 /// What a `data:` URI holds.

@@ -20,8 +20,8 @@
 //! `KHR_materials_pbrSpecularGlossiness` is its diffuse colour. Occlusion is reckoned here, and its picture passed
 //! over. What goes beyond this is told in one warning `W0511` per mesh. Only materials that triangles use are turned.
 
+use super::accessor::is_data;
 use super::document::{Document, Element, List};
-use super::is_data;
 use crate::cursor::Fault;
 use crate::files::Files;
 use crate::notes::{Notes, find_beside};

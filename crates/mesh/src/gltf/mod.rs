@@ -108,11 +108,6 @@ pub(super) fn picture(bytes: &[u8], (path, files): (&Path, &Files), index: u32) 
     read().map_err(|fault: Box<Fault>| fault.message)
 }
 
-/// Whether a URI holds its data itself.
-fn is_data(uri: &str) -> bool {
-    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
-}
-
 fn is_of_looks(name: &str) -> bool {
     OF_LOOKS.iter().any(|start| name.starts_with(start))
 }

@@ -1,8 +1,7 @@
 //! Pictures within a glTF file: in a view of its buffers, or as a `data:` URI.
 
-use super::accessor::{Buffers, decoded};
+use super::accessor::{Buffers, decoded, is_data};
 use super::document::{Document, Element, List};
-use super::is_data;
 use crate::cursor::Fault;
 use serde::Deserialize;
 

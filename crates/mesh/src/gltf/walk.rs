@@ -543,12 +543,14 @@ impl<'w, 'a> Walk<'w, 'a> {
             return;
         }
         let mut uvs = Vec::with_capacity(self.builder.mesh.triangles.len());
-        for Stretch { end, uv, .. } in &self.stretches {
+        for Stretch { end, uv, material } in &self.stretches {
             let rest = self.builder.mesh.triangles.get(uvs.len()..*end).unwrap_or_default();
             if *uv {
                 uvs.extend_from_slice(rest);
             } else {
-                self.builder.oddities.add_many(Oddity::MissingUvs, rest.len() as u64);
+                // A material of their own may do without.
+                let odd = if material.is_none() { rest.len() } else { 0 };
+                self.builder.oddities.add_many(Oddity::MissingUvs, odd as u64);
                 uvs.resize(*end, [NO_INDEX; 3]);
             }
         }

@@ -161,6 +161,7 @@ impl Reader<'_> {
         known || hex || word.is_empty() || decode::number(text).is_finite() || is_picture(text)
     }
 
+    // Long: one arm for each way that colours are written.
     pub(crate) fn text_color(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<[f64; 3]> {
         let text = item.text();
         if let Some(color) = hex_color(&text) {

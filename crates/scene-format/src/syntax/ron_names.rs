@@ -138,6 +138,7 @@ impl Parser<'_> {
     }
 
     /// `"key": value` in `{ .. }`.
+    // Long: one arm for each way that names are written.
     pub(super) fn map_entry(&mut self) {
         let start = self.at;
         let length = self.word_length();
