@@ -38,7 +38,7 @@ pub fn picture_notes(desc: &SceneDesc, mattes: &Mattes, set: &[String]) -> Vec<N
 
 /// The note of a layer that is shown in place of the picture.
 pub fn show_note(layer: &str) -> Note {
-    note("show", layer.to_owned())
+    (format!("{NOTE}show"), layer.to_owned())
 }
 
 pub(super) fn all<'a>(notes: &'a [Note], name: &'a str) -> impl Iterator<Item = &'a str> {
