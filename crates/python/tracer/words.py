@@ -436,7 +436,7 @@ class _TextureRequired(TypedDict):
 class Texture(_TextureRequired, total=False):
     """A picture laid over a surface by `vt` on meshes and by longitude and latitude on spheres.
 
-    file: PNG, JPEG, HDR or EXR, relative to the scene file. Numbers of HDR and EXR files beyond 0 to 1 are clipped, and what is none is 0; of an EXR file of several parts the first with R, G and B is taken. In memory a texel takes 4 bytes, of HDR, EXR and PNG of 16 bits 12.
+    file: PNG, JPEG, HDR or EXR, relative to the scene file. Numbers of HDR and EXR files beyond 0 to 1 are clipped, and what is none is 0; of an EXR file of several parts the first with R, G and B is taken. In memory a texel takes 4 bytes, of HDR, EXR and PNG of 16 bits 12. A picture within a glTF file is called by its place in it: `model.glb/images[0]`.
     filter: Between texels.
     wrap: Beyond the borders.
     color_space: What the picture's numbers mean.
@@ -851,9 +851,9 @@ class Sphere(_SphereRequired, total=False):
     radius: Radius. Unit: the scene's unit.
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last; textures turn along.
-    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
     material: Either[str, Material, PickItem]
@@ -1024,7 +1024,7 @@ class Plane(TypedDict, total=False):
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
     point: Either[Sequence[Either[float, str]], Array, str, PickItem]
@@ -1046,7 +1046,7 @@ class Rectangle(TypedDict, total=False):
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
     center: Either[Sequence[Either[float, str]], Array, str, PickItem]
@@ -1069,7 +1069,7 @@ class Box(TypedDict, total=False):
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
     center: Either[Sequence[Either[float, str]], Array, str, PickItem]
@@ -1091,9 +1091,9 @@ class Disk(TypedDict, total=False):
     inner_radius: Radius of the hole in its middle, less than `radius`; 0: there is none. Unit: the scene's unit.
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
-    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
     center: Either[Sequence[Either[float, str]], Array, str, PickItem]
@@ -1134,9 +1134,9 @@ class Cylinder(_CylinderRequired, _CylinderFields, total=False):
     caps: Whether disks close its ends.
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
-    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
 
@@ -1169,9 +1169,9 @@ class Cone(_ConeRequired, _ConeFields, total=False):
     caps: Whether disks close its ends.
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
-    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
 
@@ -1200,9 +1200,9 @@ class Capsule(_CapsuleRequired, _CapsuleFields, total=False):
     radius: Radius. Unit: the scene's unit.
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
-    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line.
+    placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
 
@@ -1309,7 +1309,7 @@ class Torus(_TorusRequired, total=False):
     transform: Transforms, applied first to last. Turns and scales without `about` are about its middle.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
     center: Either[Sequence[Either[float, str]], Array, str, PickItem]
@@ -1355,7 +1355,7 @@ class Arrow(_ArrowRequired, _ArrowFields, total=False):
     transform: Transforms, applied first to last. Turns and scales without `about` are about the middle between its ends.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
 
@@ -1412,18 +1412,18 @@ class Polygon(_PolygonRequired, total=False):
 class Mesh(TypedDict, total=False):
     """A triangle mesh, from a file or written out as `points` and `faces`.
 
-    file: OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes place them, and the colours of its vertices where a `VertexColor` reads them; its materials, lights, cameras, skins, morph targets and animations are not.
+    file: OBJ, OFF, PLY, STL, glTF or GLB file, relative to the scene file. Of glTF the triangles of the default scene are taken, where its nodes place them, with its materials and pictures, and the colours of its vertices where a `VertexColor` reads them; its lights, cameras, skins, morph targets and animations are not.
     part: With `file`: only this part of it, as if the file held nothing else. In OBJ the faces of objects (`o`) and groups (`g`) of this name, in glTF nodes, with all that is below them, and meshes of this name; all of them where several have it. It stays where the file has it. Other formats have no parts.
     points: Instead of a file: the points of the mesh, three or more. Unit: the scene's unit.
     faces: With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen from outside. Faces of more than three corners are cut into triangles, also where they are not convex.
     colors: With `points`: a colour for each of them, which a `VertexColor` of the material shows.
-    material: Its material, by name or written here; without one what the file's MTL says, else `Diffuse(albedo: 0.8)`.
+    material: Its material, by name or written here; without one those of the file (the MTL of OBJ, glTF's own), else `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     instances: Whether copies share one tree of triangles, those of other objects with the same file and shading among them.
     shading: Whether normals are interpolated.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
-    name: What it is called: `--set objects.NAME.radius=2` finds it where no other has this name.
+    name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
     file: File

@@ -44,7 +44,8 @@ fn pictures_are_made_again_to_the_byte() {
     for layer in ["depth", "material_id"] {
         sandbox.run(&["render", "scenes/a.ron", "-o", "scenes/s.png", "--show", layer, "--samples", "2"]).ends(0);
         sandbox.run(&["repro", "scenes/s.png"]).ends(0).says(&["made again, the same bytes"]);
-        sandbox.run(&["info", "scenes/s.png"]).ends(0).says(&[&format!("--show {layer}")]);
+        let told = sandbox.run(&["info", "scenes/s.png"]).ends(0).out_text();
+        assert!(told.contains(&format!("--show {layer}")), "{told}");
     }
     // What a checkpoint or parts have gone through tells the same.
     let kept = ["--checkpoint", "a.checkpoint"];
