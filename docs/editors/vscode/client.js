@@ -28,7 +28,8 @@ class Client {
 
   /** Says hello; gives what the server can do. */
   async initialize() {
-    const answer = await this.ask("initialize", { processId: process.pid, rootUri: null, capabilities: {} });
+    const capabilities = { textDocument: { completion: { completionItem: { snippetSupport: true } } } };
+    const answer = await this.ask("initialize", { processId: process.pid, rootUri: null, capabilities });
     this.tell("initialized", {});
     return answer.capabilities;
   }
