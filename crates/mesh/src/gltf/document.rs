@@ -155,6 +155,11 @@ impl<'a> Document<'a> {
         self.list(list).len()
     }
 
+    /// How many bytes of words an element of a list has.
+    pub(super) fn length(&self, list: List, index: u32) -> u64 {
+        self.list(list).get(index as usize).map_or(0, |raw| raw.get().len() as u64)
+    }
+
     /// The name of an element of a list, where it has one.
     pub(super) fn name_of(&self, list: List, index: u32) -> Option<String> {
         let named: Named = serde_json::from_str(self.list(list).get(index as usize)?.get()).ok()?;

@@ -19,6 +19,7 @@
 
 mod accessor;
 mod document;
+mod instancing;
 mod materials;
 mod pictures;
 mod walk;
@@ -65,8 +66,14 @@ pub(super) fn read(bytes: &[u8], (path, files): (&Path, &Files), wanted: Wanted<
     if let (Some(part), Some(names)) = (wanted.part, walk.names_without_part()) {
         return Err(parts::unknown(path, part, names, "nodes and meshes"));
     }
-    let walk::Found { meshes, morphs, materials: used, triangle_material, uvs } = walk.found;
+    let walk::Found { meshes, morphs, materials: used, triangle_material, without_uvs, uvs } = walk.found;
     let (materials, warning) = materials::turn(&document, &used, path, files).map_err(told)?;
+    // What is one colour does without texture coordinates.
+    let plain = used.iter().zip(&materials).filter(|(_, named)| named.material.textures().is_empty());
+    let plain: Vec<Option<u32>> = plain.map(|(number, _)| Some(*number)).collect();
+    for (_, count) in without_uvs.into_iter().filter(|(material, _)| !plain.contains(material)) {
+        builder.oddities.add_many(Oddity::MissingUvs, count);
+    }
     let libraries = buffers.files();
     builder.mesh.uv_triangles = uvs;
     let whole = wanted.part.map_or("scene of the file".to_owned(), |part| format!("part {}", shown(part.as_bytes())));

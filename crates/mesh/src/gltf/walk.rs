@@ -2,6 +2,7 @@
 
 use super::accessor::{Buffers, Values};
 use super::document::{Document, Element, List};
+use super::instancing::Instancing;
 use crate::builder::{Builder, MOST_VERTICES, coordinate};
 use crate::colors::Wanted;
 use crate::cursor::Fault;
@@ -36,19 +37,6 @@ struct Node {
 struct NodeExtensions {
     #[serde(rename = "EXT_mesh_gpu_instancing")]
     instancing: Option<Instancing>,
-}
-
-#[derive(Deserialize)]
-struct Instancing {
-    attributes: InstanceAttributes,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "UPPERCASE")]
-struct InstanceAttributes {
-    translation: Option<u32>,
-    rotation: Option<u32>,
-    scale: Option<u32>,
 }
 
 #[derive(Deserialize)]
@@ -96,6 +84,8 @@ pub(super) struct Found {
     pub(super) materials: Vec<u32>,
     /// For each triangle, which of these it has; empty: all have the default.
     pub(super) triangle_material: Vec<u32>,
+    /// How many triangles have no texture coordinates where others have some, by their material.
+    pub(super) without_uvs: BTreeMap<Option<u32>, u64>,
     /// Texture coordinates of triangles, where some have none.
     pub(super) uvs: Option<Vec<[u32; 3]>>,
 }
@@ -268,7 +258,12 @@ impl<'w, 'a> Walk<'w, 'a> {
             if let Some(mesh) = value.mesh {
                 match &value.extensions.instancing {
                     None => self.mesh(mesh, at, map, in_part)?,
-                    Some(instancing) => self.instances(mesh, &instancing.attributes, at, map, in_part)?,
+                    Some(instancing) => {
+                        let words = self.document.length(List::Meshes, mesh);
+                        for placement in instancing.placements(self.buffers, words, at)? {
+                            self.mesh(mesh, at, map * placement, in_part)?;
+                        }
+                    }
                 }
             }
             open.push(Siblings::new(value.children, map, at, in_part));
@@ -295,44 +290,6 @@ impl<'w, 'a> Walk<'w, 'a> {
             triangles.resize(*end, index);
         }
         self.found.triangle_material = triangles;
-        Ok(())
-    }
-
-    /// Brings a mesh as often as accessors say (`EXT_mesh_gpu_instancing`).
-    fn instances(
-        &mut self,
-        mesh: u32,
-        attributes: &InstanceAttributes,
-        at: usize,
-        map: DAffine3,
-        in_part: bool,
-    ) -> Result<(), Box<Fault>> {
-        let of_three = |walk: &mut Self, accessor: Option<u32>, what: &str| {
-            accessor.map(|accessor| walk.buffers.values::<3>(accessor, at, what)).transpose()
-        };
-        let translations = of_three(self, attributes.translation, "TRANSLATION")?;
-        let scales = of_three(self, attributes.scale, "SCALE")?;
-        let rotations = attributes.rotation.map(|accessor| self.buffers.values::<4>(accessor, at, "ROTATION"));
-        let rotations = rotations.transpose()?;
-        let counts = [
-            translations.as_ref().map(|values| values.count),
-            scales.as_ref().map(|values| values.count),
-            rotations.as_ref().map(|values| values.count),
-        ];
-        let count = counts.into_iter().flatten().next().unwrap_or(0);
-        if counts.into_iter().flatten().any(|other| other != count) {
-            let message = "the attributes of EXT_mesh_gpu_instancing have different numbers of elements";
-            return Err(Fault::new(at, message, "as many of each as there are instances"));
-        }
-        for k in 0..count {
-            let translation = translations.as_ref().map_or(Ok([0.0; 3]), |values| values.get(k))?;
-            let scale = scales.as_ref().map_or(Ok([1.0; 3]), |values| values.get(k))?;
-            let rotation = rotations.as_ref().map_or(Ok([0.0, 0.0, 0.0, 1.0]), |values| values.get(k))?;
-            let rotation = DVec4::from(rotation).try_normalize().map_or(DQuat::IDENTITY, DQuat::from_vec4);
-            let placed =
-                DAffine3::from_scale_rotation_translation(DVec3::from(scale), rotation, DVec3::from(translation));
-            self.mesh(mesh, at, map * placed, in_part)?;
-        }
         Ok(())
     }
 
@@ -548,9 +505,7 @@ impl<'w, 'a> Walk<'w, 'a> {
             if *uv {
                 uvs.extend_from_slice(rest);
             } else {
-                // A material of their own may do without.
-                let odd = if material.is_none() { rest.len() } else { 0 };
-                self.builder.oddities.add_many(Oddity::MissingUvs, odd as u64);
+                *self.found.without_uvs.entry(*material).or_default() += rest.len() as u64;
                 uvs.resize(*end, [NO_INDEX; 3]);
             }
         }

@@ -249,6 +249,18 @@ fn repeats_have_an_end() {
         file.root(json!({ "mesh": mesh }));
     }
     assert!(file.fault()[0].starts_with("the scene of the file repeats its meshes"));
+
+    // Instances by a few bytes, of a mesh in which there is nothing.
+    let mut file = File::new();
+    file.json["accessors"] = json!([{ "componentType": 5126, "type": "VEC3", "count": 4_000_000_000_u32 }]);
+    let mesh = file.mesh(json!([]));
+    let extensions = json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": 0 } } });
+    file.root(json!({ "mesh": mesh, "extensions": extensions }));
+    assert!(file.fault()[0].starts_with("the scene of the file repeats its meshes"));
+    file.json["accessors"] = json!([{ "componentType": 5126, "type": "VEC4", "count": 2 }]);
+    file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = json!({ "ROTATION": 0 });
+    let message = "rotation 0 of EXT_mesh_gpu_instancing is zero";
+    assert_eq!(file.fault(), [message, "a quaternion of length one"]);
 }
 
 #[test]

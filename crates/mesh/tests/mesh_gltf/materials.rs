@@ -221,3 +221,20 @@ fn texture_transforms_are_those_of_other_programs() {
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");
     }
 }
+
+/// Of triangles without texture coordinates those are told that have a picture.
+#[test]
+fn what_is_one_colour_needs_no_texture_coordinates() {
+    for (index, told) in [(0, false), (1, true)] {
+        let plain = json!({ "pbrMetallicRoughness": { "metallicFactor": 0 } });
+        let mut file = with_materials(&[plain.clone(), plain]);
+        let uvs = file.floats(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        file.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = uvs.into();
+        with_picture(&mut file, json!({ "uri": "data:image/png;base64,UE5H" }), json!({ "index": 0 }));
+        let textured = file.json["materials"][0].clone();
+        file.json["materials"][index] = textured;
+        let mesh = parse(&file.glb(), MeshFormat::Glb, Path::new("m.glb")).expect("a mesh");
+        let found = mesh.warnings.iter().any(|warning| warning.message.contains("2 triangles without texture"));
+        assert_eq!(found, told, "{:?}", mesh.warnings);
+    }
+}
