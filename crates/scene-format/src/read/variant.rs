@@ -27,6 +27,13 @@ enum Body<'t, 's> {
     Value(Item<'t, 's>),
 }
 
+/// The first of a table's names that is a kind.
+fn kind_among<'t, 's>(item: Item<'t, 's>, def: &'static EnumDef) -> Option<Item<'t, 's>> {
+    // No kind has more fields; a table of a million names is told as what it is.
+    const MOST: usize = 32;
+    item.fields().take(MOST).map(|(key, _)| key).find(|key| def.variant(&key.text()).is_some())
+}
+
 impl Reader<'_> {
     /// Finds out which variant is written.
     pub fn variant<'t, 's>(&mut self, item: Item<'t, 's>, def: &'static EnumDef) -> Option<Chosen<'t, 's>> {
@@ -58,20 +65,8 @@ impl Reader<'_> {
                 let mut fields = item.fields();
                 match (fields.next(), fields.next()) {
                     (Some((key, value)), None) => (key.text(), key.span(), Body::Value(value)),
-                    (Some((key, _)), Some((second, _))) if def.variant(&key.text()).is_some() => {
-                        // What stands beside may belong to a bracket that is never closed.
-                        if self.sink.diagnostics.iter().any(|fault| fault.code == codes::UNCLOSED_BRACKET) {
-                            return None;
-                        }
-                        self.report(
-                            Diagnostic::error(
-                                codes::UNKNOWN_FIELD,
-                                second.span(),
-                                format!("beside `{}` nothing else can stand here", key.text()),
-                            )
-                            .expected(format!("one {}; its fields stand inside its own braces", def.noun))
-                            .label(key.span(), format!("this is the {}", def.noun)),
-                        );
+                    (Some(_), Some(_)) if let Some(kind) = kind_among(item, def) => {
+                        self.beside_kind(item, &kind, def);
                         return None;
                     }
                     (None, _) if item.is_damaged() => return None,
@@ -101,6 +96,31 @@ impl Reader<'_> {
         self.renamed = item.index() as u32;
         let readable = !matches!(body, Body::None) || matches!(variant.content, Content::Unit);
         readable.then_some(Chosen { variant, body, item })
+    }
+
+    /// Reports what stands beside a kind, where only the kind can stand: `{ name = "a", Sphere = { .. } }`.
+    fn beside_kind(&mut self, item: Item<'_, '_>, kind: &Item<'_, '_>, def: &'static EnumDef) {
+        // What stands beside may belong to a bracket that is never closed.
+        if self.sink.diagnostics.iter().any(|fault| fault.code == codes::UNCLOSED_BRACKET) {
+            return;
+        }
+        let Some((other, _)) = item.fields().find(|(key, _)| key.index() != kind.index()) else { return };
+        let (name, field) = (kind.text(), other.text());
+        let message = format!("beside `{name}` nothing else can stand here");
+        let mut fault = Diagnostic::error(codes::UNKNOWN_FIELD, other.span(), message)
+            .expected(format!("one {}; its fields stand inside its own braces", def.noun))
+            .label(kind.span(), format!("this is the {}", def.noun));
+        let own = def.variant(&name).is_some_and(
+            |variant| matches!(variant.content, Content::Struct(fields) if fields.field(&field).is_some()),
+        );
+        let value = item.fields().find(|(key, _)| key.index() == kind.index()).map_or("", |(_, value)| value.lexeme());
+        if own && item.syntax() == Syntax::Toml && value.starts_with('[') {
+            let list = item.lexeme().trim_matches(['[', ']']);
+            fault.hint = format!("put `{field}` below [{list}.{name}]");
+        } else if own {
+            fault.hint = format!("put `{field}` into the braces of `{name}`");
+        }
+        self.report(fault);
     }
 
     fn no_variant<T>(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> Option<T> {

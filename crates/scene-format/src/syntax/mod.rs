@@ -140,6 +140,11 @@ impl Sink {
         self.full
     }
 
+    /// How badly a text was read: one that ends before its file does hides all that follows.
+    pub fn cost(&self) -> (bool, usize) {
+        (self.diagnostics.iter().any(|fault| fault.code == codes::TEXT_AFTER_END), self.errors)
+    }
+
     /// Says that reading makes no sense after this fault.
     pub fn push_last(&mut self, diagnostic: Diagnostic) {
         self.push(diagnostic);

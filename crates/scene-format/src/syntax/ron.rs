@@ -12,13 +12,13 @@ use crate::tree::{Builder, Kind};
 /// Reads one text into `builder`; returns the comments.
 pub(crate) fn parse(text: &str, builder: &mut Builder, sink: &mut Sink) -> Tape<Span> {
     let (mut comments, mut faults) = attempt(text, builder, Trust::Brackets);
-    if faults.diagnostics.iter().any(|fault| matches!(fault.code, codes::UNCLOSED_BRACKET | codes::STRAY_BRACKET)) {
+    if faults.diagnostics.iter().any(|fault| brackets::CODES.contains(&fault.code)) {
         // Brackets do not match: where the lines are indented, that may say better what was meant. One tree at a time,
         // for a large file's tree is large.
-        let errors = faults.errors;
+        let cost = faults.cost();
         drop((comments, faults));
         (comments, faults) = attempt(text, builder, Trust::Indentation);
-        if faults.errors > errors {
+        if faults.cost() > cost {
             drop((comments, faults));
             (comments, faults) = attempt(text, builder, Trust::Brackets);
         }
@@ -356,7 +356,9 @@ impl<'p> Parser<'p> {
                         break;
                     }
                     Fate::Stray => {
-                        self.sink.push(brackets::stray(self.text, self.builder.source, self.at));
+                        let fault = brackets::stray(self.text, self.builder.source, self.at);
+                        let closes = self.open.last().is_some_and(|open| brackets::closer_of(open.bracket) == close);
+                        self.sink.push(if closes { brackets::early(fault) } else { fault });
                         self.at += 1;
                         self.trivia();
                         if self.peek() == Some(b',') {
@@ -411,14 +413,9 @@ impl<'p> Parser<'p> {
             && fate == Fate::ClosesOuter
             && self.open.last().is_some_and(|open| open.line < self.line)
             && self.at > self.line + self.indent;
-        // So is one that closes the first that its line has opened, if the next line goes on with its fields.
-        let too_early = self.trust == Trust::Indentation
-            && fate == Fate::Closes
-            && self.open.last().is_some_and(|open| {
-                open.bracket == b'(' && open.line == self.line && brackets::goes_on(self.text, self.at, open.indent)
-            })
-            && self.open.iter().rev().nth(1).is_none_or(|outer| outer.line < self.line);
-        if stray || too_early { Fate::Stray } else { fate }
+        let early = || brackets::closes_too_early(self.text, &self.open, self.at, self.line, self.indent);
+        let early = self.trust == Trust::Indentation && fate == Fate::Closes && early();
+        if stray || early { Fate::Stray } else { fate }
     }
 
     /// Whether a new line begins here that is indented no deeper than the one that opened the innermost bracket.
@@ -451,7 +448,9 @@ impl<'p> Parser<'p> {
         match (bracket, *shape, named) {
             (b'[', _, Some(_)) => {
                 let in_fields = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'(';
-                if in_fields && *shape == Shape::Positional {
+                let behind = self.open.last().is_some_and(|open| open.line < self.line)
+                    && brackets::fields_behind(self.text, self.at).is_some();
+                if in_fields && !behind && *shape == Shape::Positional {
                     self.separated = true;
                     self.report_unclosed(Some(self.at));
                     self.builder.leaf(Kind::Broken, self.at, self.at);

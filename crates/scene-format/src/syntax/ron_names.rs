@@ -1,7 +1,7 @@
 //! Names and their values in RON: fields, entries of `{ .. }`, and names that are missing, mistaken or out of place.
 
 use super::ron::Parser;
-use super::{Syntax, bare_numbers, constructs};
+use super::{Syntax, bare_numbers, brackets, constructs};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::tree::Kind;
@@ -99,6 +99,9 @@ impl Parser<'_> {
     }
 
     pub(super) fn value_without_name(&mut self) {
+        if self.list_without_brackets() {
+            return;
+        }
         let start = self.at;
         let errors = self.sink.errors;
         let mark = self.builder.nodes.len();
@@ -117,8 +120,57 @@ impl Parser<'_> {
         }
     }
 
+    /// `transform: Translate(..), RotateY(20)`: the rest of the list, if the field before is one.
+    fn list_without_brackets(&mut self) -> bool {
+        const LISTS: [&str; 5] = ["transform", "placements", "objects", "lights", "of"];
+        // Transforms are no longer; a file of values must not take quadratic time.
+        const LONGEST: usize = 64;
+        let kind_ahead = |parser: &Self| {
+            parser.peek().is_some_and(|byte| byte.is_ascii_uppercase())
+                && parser.rest()[parser.word_length()..].starts_with('(')
+        };
+        let end = self.builder.nodes.len();
+        let ends_here =
+            |index: &usize| self.builder.nodes.get(*index).is_some_and(|node| index + node.size as usize == end);
+        let Some(value) = (end.saturating_sub(LONGEST)..end).find(ends_here) else { return false };
+        let Some(key) = value.checked_sub(1).and_then(|key| self.builder.nodes.get(key)) else { return false };
+        let field = self.text[key.start as usize..key.end as usize].to_owned();
+        let start = self.builder.nodes.get(value).map_or(0, |node| node.start as usize);
+        let of_kind = self.text[start..].starts_with(|c: char| c.is_ascii_uppercase());
+        if key.kind != Kind::Key || !LISTS.contains(&field.as_str()) || !of_kind || !kind_ahead(self) {
+            return false;
+        }
+        let mut last = self.at;
+        while kind_ahead(self) {
+            self.value();
+            last = self.at;
+            self.trivia();
+            if self.peek() == Some(b',') {
+                self.at += 1;
+                self.trivia();
+            }
+        }
+        self.separated = true;
+        self.builder.nodes.truncate(value);
+        self.builder.leaf(Kind::Broken, start, last);
+        let list = format!("[{}]", &self.text[start..last]);
+        let found = self.span(start, last);
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, found, format!("the values of `{field}` stand in a list"))
+            .expected("a list: [a, b, c]")
+            .hint(if list.contains('\n') { "write [ and ] around them".to_owned() } else { format!("write {list}") });
+        fault.edit = Some(Edit { span: found, replacement: list });
+        self.sink.push(fault);
+        true
+    }
+
     pub(super) fn named_in_list(&mut self) {
         let start = self.at;
+        if let Some(end) = brackets::fields_behind(self.text, start) {
+            self.sink.push(brackets::closed_before_fields(self.text, self.builder.source, start, end));
+            self.builder.leaf(Kind::Broken, start, end);
+            self.at = end;
+            return;
+        }
         let length = self.word_length();
         let found = self.span(start, start + length);
         self.sink.push(

@@ -257,7 +257,7 @@ impl<'s> Tables<'s> {
             builder.leaf(Kind::Broken, 0, 0);
             return None;
         };
-        let mut table = ROOT;
+        let mut table = self.kind_alone(&path[0], parents.is_empty(), builder, sink).unwrap_or(ROOT);
         for key in parents {
             match self.find(&builder.nodes, table, key) {
                 Some(found) if self.one_for_many.contains(&(found + 1)) => return None,
@@ -324,6 +324,28 @@ impl<'s> Tables<'s> {
                 None
             }
         }
+    }
+
+    /// `[Box]` right after `[[objects]]`, or `[Box.material]` after both: the item of the list, for which it is taken;
+    /// it is told.
+    fn kind_alone(&self, key: &Key, last: bool, builder: &mut Builder, sink: &mut Sink) -> Option<u32> {
+        let of_kind = |key: &Key| self.text.get(key.start..).is_some_and(|key| key.starts_with(char::is_uppercase));
+        let item = self.lists.last().filter(|_| of_kind(key)).map(|list| builder.nodes.at(*list as usize).end)?;
+        let node = builder.nodes.at(item as usize);
+        let list = self.text.get(node.start as usize..node.end as usize)?.trim_matches(['[', ']', ' ', '\t']);
+        let begins = last && self.current == item;
+        let goes_on = !last && self.find(&builder.nodes, item, key).is_some();
+        if !(begins || goes_on) || list.contains('.') || self.find(&builder.nodes, ROOT, key).is_some() {
+            return None;
+        }
+        let kind = self.text.get(key.clone()).unwrap_or("");
+        let (found, mended) = (key_span(builder.source, key), format!("{list}.{kind}"));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, found, format!("`{kind}` stands outside of [[{list}]]"))
+            .expected(format!("[{list}.{kind}]"))
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        sink.push(fault);
+        Some(item)
     }
 
     /// Whether a key of the file's table is spelt like that of the `[[list]]` before.
