@@ -4,7 +4,7 @@
 use crate::codes;
 use crate::desc::Scene;
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::form::{BLANK_LINE, Entry, Form, OWN_LINES};
+use crate::form::{BLANK_LINE, Entry, FILLED, Form, OWN_LINES};
 use crate::load::{LoadError, load_str};
 use crate::print;
 use crate::read::{PICK, REPEAT, is_expression, pick_body, repeat_body};
@@ -30,7 +30,7 @@ pub fn comments(text: &str, syntax: Syntax) -> usize {
     parse(text, syntax, &mut Sink::default()).comments.len()
 }
 
-/// Writes a scene as everybody's looks: what fits on a line of 100 characters on one line, else one entry a line, as in
+/// Writes a scene as everybody's looks: what fits on a line of 120 characters on one line, else one entry a line, as in
 /// RON what stood so already, its first entry not behind the bracket; with the person's comments, order and empty lines
 /// (one of several). What it gives it leaves as it is. Lines end as most
 /// of them did, and a byte order mark stays. `name` is shown in diagnostics.
@@ -201,13 +201,25 @@ impl Converter<'_, '_> {
         self.ended(end);
         // Where its last line ends.
         let last = || item.children().last().map_or(end, |child| child.span().end.max(end));
-        let after = if header { early.or_else(|| self.comment_after(last())) } else { self.comment_after(end) };
+        let late = if header { self.comment_after(last()) } else { self.comment_after(end) };
+        // Only one of them can stand behind the value.
+        let after = match late {
+            Some(late) => {
+                before.extend(early);
+                Some(late)
+            }
+            None => early,
+        };
         Entry { name: name.into(), value, before, after }
     }
 
     /// With the comments that stand before the bracket that closes an item, behind its last entry: what somebody has
     /// commented out there stays within.
     fn with_last_comments(&mut self, item: Item<'_, '_>, mut entries: Vec<Entry>) -> Vec<Entry> {
+        if let Some(comments) = self.comments_below(item) {
+            entries.push(Entry { before: comments, ..Entry::new("", Form::Absent) });
+            return entries;
+        }
         let Some(bracket) = item.span().end.checked_sub(1) else { return entries };
         let closes = self.text().as_bytes().get(bracket as usize).is_some_and(|byte| b")]}".contains(byte));
         if closes && self.to != Syntax::Json {
@@ -221,6 +233,24 @@ impl Converter<'_, '_> {
             first.before.insert(0, OWN_LINES.to_owned());
         }
         entries
+    }
+
+    /// Comments right below the last field of a table of TOML that an empty line parts from what follows.
+    fn comments_below(&mut self, item: Item<'_, '_>) -> Option<Vec<String>> {
+        let last = item.children().last()?.span().end;
+        let of_header = self.from == Syntax::Toml && self.to != Syntax::Json && last > item.span().end;
+        let taken = self.next_comment.checked_sub(1).and_then(|before| self.tree.comments.get(before));
+        let (text, mut end, mut count) = (self.text(), taken.map_or(last, |taken| taken.end.max(last)), 0);
+        while let Some(span) = self.tree.comments.get(self.next_comment + count).filter(|_| of_header) {
+            let between = text.get(end as usize..span.start as usize)?;
+            if between.matches('\n').count() != 1 || !between.trim().is_empty() {
+                break;
+            }
+            (end, count) = (span.end, count + 1);
+        }
+        let apart = text.get(end as usize..)?.trim_start_matches([' ', '\t', '\r']);
+        let apart = apart.is_empty() || apart.strip_prefix('\n').is_some_and(|next| next.starts_with(['\n', '\r']));
+        (count > 0 && apart).then(|| self.comments_before(end))
     }
 
     /// Whether somebody has given the entries of an item lines of their own, the first of them not behind the bracket.
@@ -259,7 +289,7 @@ impl Converter<'_, '_> {
                     self.entry(key.text().into_owned(), key.span().start, value, *inner)
                 };
                 let entries = item.fields().map(entry).collect();
-                Form::Map(self.with_last_comments(item, entries))
+                Form::Map(self.with_shared_lines(item, entries))
             }
             Type::Struct(def) => self.fields(item, def),
             Type::Enum(def) => self.variant(item, def),
@@ -295,7 +325,27 @@ impl Converter<'_, '_> {
             }
         });
         let entries = entries.collect();
-        Form::List(self.with_last_comments(item, entries))
+        Form::List(self.with_shared_lines(item, entries))
+    }
+
+    /// With its last comments, and marked where entries share lines.
+    fn with_shared_lines(&mut self, item: Item<'_, '_>, entries: Vec<Entry>) -> Vec<Entry> {
+        let mut entries = self.with_last_comments(item, entries);
+        if let Some(first) = entries.first_mut().filter(|_| self.shares_lines(item)) {
+            let own_lines = first.before.first().is_some_and(|line| line == OWN_LINES);
+            first.before.insert(usize::from(own_lines), FILLED.to_owned());
+        }
+        entries
+    }
+
+    /// Whether some of an item's entries stand on one line.
+    fn shares_lines(&self, item: Item<'_, '_>) -> bool {
+        let starts =
+            || item.children().filter(|child| child.kind() != Kind::Key).map(|child| child.span().start as usize);
+        let shared = |(from, to): (usize, usize)| self.text().get(from..to).is_some_and(|text| !text.contains('\n'));
+        self.blanks.is_some()
+            && (self.from, self.to) == (Syntax::Ron, Syntax::Ron)
+            && starts().zip(starts().skip(1)).any(shared)
     }
 
     fn repeat(&mut self, body: Item<'_, '_>, inner: &'static Type) -> Form {
@@ -384,10 +434,16 @@ impl Converter<'_, '_> {
                     return Some(self.entry(name.into_owned(), key.span().start, value, Type::Text));
                 }
                 let field = def.field(&name)?;
-                Some(self.entry(field.name.to_owned(), key.span().start, value, field.kind))
+                // What stands before the first [[header]] of a list is said of the first item.
+                let of_item = value.kind() == Kind::List && value.lexeme().starts_with("[[");
+                let start = if of_item && self.to != Syntax::Toml { 0 } else { key.span().start };
+                Some(self.entry(field.name.to_owned(), start, value, field.kind))
             })
             .collect();
-        Form::Struct { name: def.name, fields: self.with_last_comments(item, fields) }
+        // What RON needs no name for keeps none.
+        let unnamed = (self.from, self.to) == (Syntax::Ron, Syntax::Ron) && item.name().is_none();
+        let name = if unnamed { "" } else { def.name };
+        Form::Struct { name, fields: self.with_last_comments(item, fields) }
     }
 
     fn variant(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> Form {

@@ -34,6 +34,9 @@ pub(crate) const BLANK_LINE: &str = "\n";
 /// Before the comments of the first entry: it stood on a line of its own, and all of them will.
 pub(crate) const OWN_LINES: &str = "\n\n";
 
+/// Before the comments of the first entry: entries shared a line, and lines will be filled.
+pub(crate) const FILLED: &str = "\n\n\n";
+
 /// A value with its name (in lists: none) and the comments that belong to it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Entry {

@@ -82,7 +82,7 @@ const MESSY_JSON: &str = r##"
     "camera":{"fov":4e1,
     "look_at":[0,0,0]}, "render": { "clamp": null, "noise": "None" },
     "objects":[
-        {"Sphere":{"center":[0,0,0], "radius":1.50, "material": {"Diffuse":{"albedo":"#808080"}}}},
+        {"Sphere":{"center":[0,0,0], "radius":1.50, "name": "b", "material": {"Diffuse":{"albedo":"#808080"}}}},
 
         {"Box":{"size": 1}}]}"##;
 
@@ -96,6 +96,7 @@ const TIDY_JSON: &str = r##"{
         { "Sphere": {
             "center": [0, 0, 0],
             "radius": 1.50,
+            "name": "b",
             "material": { "Diffuse": { "albedo": "#808080" } }
         } },
 
@@ -212,7 +213,7 @@ fn lists_of_vars_stay_lists() {
         let text = of(list);
         let before = load(&text, Syntax::Ron).unwrap_or_else(|error| panic!("{list}: {error:?}"));
         let tidy = format("s", &text, Syntax::Ron).expect("right");
-        assert!(tidy.contains(&format!("vars: {{\"h\": {list}}}")), "{list} became\n{tidy}");
+        assert!(tidy.contains(&format!("vars: {{ \"h\": {list} }}")), "{list} became\n{tidy}");
         assert_eq!(load(&tidy, Syntax::Ron).ok().as_ref(), Some(&before), "{tidy}");
         for syntax in [Syntax::Toml, Syntax::Json] {
             let there = convert("s", &text, Syntax::Ron, syntax).expect("right");
@@ -344,4 +345,74 @@ fn ends_of_lines_stay() {
     let toml = convert("s.ron", &marked, Syntax::Ron, Syntax::Toml).expect("it is right");
     assert!(!toml.contains(['\r', '\u{feff}']), "{toml:?}");
     assert_eq!(toml, convert("s.ron", MESSY_RON, Syntax::Ron, Syntax::Toml).expect("it is right"));
+}
+
+/// What does not fit on a line: fields on two lines, else a list as the last of them behind their bracket, else a field
+/// a line; entries that shared lines fill them.
+#[test]
+fn what_does_not_fit_on_a_line_is_laid_out_in_few() {
+    let laid_out = r##"Scene(
+    background: 1,
+    materials: {
+        "white": Diffuse(albedo: 0.73), "red": Diffuse(albedo: (0.61, 0.05, 0.05)),
+        "green": Diffuse(albedo: (0.12, 0.42, 0.1)), "lamp": Emissive(radiance: (17, 12, 4)),
+    },
+    objects: [
+        Box(center: (-0.35, 0.6, -0.3), size: (0.6, 1.2, 0.6), material: "white",
+            transform: [Rotate(axis: (0, 1, 0), degrees: 18)]),
+        Group(name: "table", material: "white", placements: Grid(count: (2, 1, 2), spacing: (1, 1, 1)), objects: [
+            Box(center: (0, 0.74, 0), size: (1.1, 0.04, 1.1)),
+            Sphere(center: (0, 0, 0), radius: 1),
+        ]),
+        Sphere(
+            center: (0, 0, 0),
+            radius: 1,
+            material: BlinnPhong(albedo: (0.5, 0.5, 0.5), specular: 0.25, exponent: 1000, note),
+            camera_visible: true,
+            name: "one that is named at great length, for it has to be long",
+        ),
+        Lathe(
+            profile: [
+                (0, 0.01), (0.55, 0.01), (0.55, 0.04), (0.2, 0.09), (0.07, 0.2), (0.05, 0.35), (0.05, 0.5),
+                (0.05, 0.65), (0.07, 0.85), (0.2, 1),
+            ],
+            curve: CatmullRom,
+        ),
+    ],
+)
+"##
+    .replace(", note", ", energy_conserving: true");
+    assert_eq!(format("scene", &laid_out, Syntax::Ron).expect("right"), laid_out);
+    // However the lines were broken, where no bracket stood alone at its line's end.
+    let one_line = laid_out.replace("material: \"white\",\n            transform", "material: \"white\", transform");
+    assert_ne!(one_line, laid_out);
+    assert_eq!(format("scene", &one_line, Syntax::Ron).expect("right"), laid_out);
+}
+
+/// What is said behind an object of TOML stays behind it.
+#[test]
+fn comments_behind_a_line_of_toml_stay_there() {
+    let text = "background = 1\n\n[[objects]]\nBox = { size = 1 } # a box\n\n[[objects]]\nBox = { size = 2 }\n";
+    assert_eq!(format("scene", text, Syntax::Toml).expect("right"), text);
+}
+
+/// The scenes that come with the program are laid out as it lays them out.
+#[test]
+fn all_our_scenes_are_laid_out() {
+    let mut folders = vec![Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes")).to_owned()];
+    let mut seen = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("scenes") {
+            let path = entry.expect("a file").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if let Some(syntax) = Syntax::from_path(&path) {
+                let text = std::fs::read_to_string(&path).expect("text");
+                let name = path.display().to_string();
+                assert_eq!(format(&name, &text, syntax).expect("right"), text, "{name}");
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 50, "{seen}");
 }

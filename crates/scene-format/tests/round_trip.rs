@@ -110,8 +110,8 @@ background = \"#ff8800\"
 fov = 6_0
 
 # The big one.
-[[objects]] # round
-Sphere = { center = [0, 0, 0], radius = 1e1 }
+[[objects]]
+Sphere = { center = [0, 0, 0], radius = 1e1 } # round
 
 [[objects]]
 [objects.Mesh]
@@ -227,4 +227,19 @@ fn the_order_of_materials_stays() {
         let names: Vec<&str> = scene.materials.iter().map(|named| &*named.name.value).collect();
         assert_eq!(names, ["b", "floor", "a"], "{there}");
     }
+}
+
+/// Where comments of TOML stand in RON: with the item, the field or the end of the table that they were written by.
+#[test]
+fn comments_of_toml_stay_with_their_items() {
+    let toml = "# Head.\n\nbackground = 1 # sky\n\n# the camera\n[camera] # cam\nfov = 40 # wide\n# end of camera\n\n\
+                [materials]\nred = { Diffuse = { albedo = [1, 0, 0] } } # r\n# end of materials\n\n\
+                # a ball\n[[objects]] # first\nSphere = { center = [0, 0, 0], radius = 1 } # ball\n\n\
+                # a box\n[[objects]]\n[objects.Box]\nsize = 1 # one\n\n# The end.\n";
+    let ron = "// Head.\nScene(\n    background: 1, // sky\n    // the camera\n    camera: Camera(\n        \
+               fov: 40, // wide\n        // end of camera\n    ), // cam\n    materials: {\n        \
+               \"red\": Diffuse(albedo: (1, 0, 0)), // r\n        // end of materials\n    },\n    objects: [\n        \
+               // a ball\n        // first\n        Sphere(center: (0, 0, 0), radius: 1), // ball\n        \
+               // a box\n        Box(\n            size: 1, // one\n        ),\n    ],\n)\n// The end.\n";
+    assert_eq!(convert("s", toml, Syntax::Toml, Syntax::Ron).expect("right"), ron);
 }

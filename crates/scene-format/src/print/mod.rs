@@ -8,11 +8,11 @@ pub(crate) use json::{json, json_value};
 pub(crate) use ron::{ron, ron_value};
 pub(crate) use toml::{key as toml_key, text as toml_text, toml, toml_value};
 
-use crate::form::{BLANK_LINE, Entry, Form, OWN_LINES};
+use crate::form::{BLANK_LINE, Entry, FILLED, Form, OWN_LINES};
 use crate::syntax::Syntax;
 
 /// Lines are filled up to this many characters.
-const WIDTH: usize = 100;
+const WIDTH: usize = 120;
 
 /// A whole scene, with the comments that stand before and after it, where the syntax has comments.
 pub(crate) fn scene(scene: &Form, syntax: Syntax, before: &[String], after: &[String]) -> String {
@@ -60,7 +60,7 @@ fn quoted(text: &str, unicode: impl Fn(char) -> String) -> String {
 /// Comments without an empty line before the first.
 fn after_blank(comments: &[String]) -> &[String] {
     match comments {
-        [first, rest @ ..] if first == OWN_LINES => after_blank(rest),
+        [first, rest @ ..] if first == OWN_LINES || first == FILLED => after_blank(rest),
         [first, rest @ ..] if first == BLANK_LINE => rest,
         _ => comments,
     }

@@ -25,8 +25,13 @@ pub(crate) fn toml(scene: &Form, before: &[String], after: &[String]) -> String 
                         continue;
                     }
                     out.push_str(&format!("[[{}]]", entry.name));
-                    end_line(&mut out, item.after.as_deref());
-                    body(&mut out, &entry.name, &item.value);
+                    // What is said of an item stands behind the line that is the whole of it.
+                    let whole = on_one_line(&item.value).map(|whole| Entry { after: item.after.clone(), ..whole });
+                    end_line(&mut out, item.after.as_deref().filter(|_| whole.is_none()));
+                    match whole {
+                        Some(whole) => line(&mut out, &whole),
+                        None => body(&mut out, &entry.name, &item.value),
+                    }
                 }
                 if let Some(after) = &entry.after {
                     comments(&mut out, std::slice::from_ref(after));
@@ -105,6 +110,12 @@ fn sub_table(out: &mut String, path: &str, entry: &Entry, content: &Form) {
     out.push_str(&format!("[{path}]"));
     end_line(out, entry.after.as_deref());
     body(out, path, content);
+}
+
+/// A kind with its fields as the one entry below its header, if that fits on a line.
+fn on_one_line(form: &Form) -> Option<Entry> {
+    let Form::Variant { name, content: Some(content) } = form else { return None };
+    Some(Entry::new(*name, (**content).clone())).filter(fits)
 }
 
 /// Whether an entry can stand on one line.
