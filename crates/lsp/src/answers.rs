@@ -18,7 +18,7 @@ use lsp_types::{
 };
 use scene_format::analysis::{self, CompletionKind, Symbol};
 use scene_format::diagnostic::Severity;
-use scene_format::{FileKind, LoadError};
+use scene_format::{Diagnostic, FileKind, LoadError, codes};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::HashMap;
@@ -290,6 +290,11 @@ fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeAc
     let mut actions = Vec::new();
     // What is marked is what was told.
     for fault in document.faults.iter() {
+        if fault.code == codes::UNKNOWN_MATERIAL && fault.span.source == 0 {
+            actions.extend(
+                material_added(document, fault).filter(|_| overlaps(&diagnostics::range(document, fault.span))),
+            );
+        }
         let Some(mends) = fault.edit.as_ref().filter(|edit| edit.span.source == 0) else { continue };
         let range = diagnostics::range(document, fault.span);
         let edit = diagnostics::edit(document, mends);
@@ -310,6 +315,20 @@ fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeAc
         }));
     }
     Some(actions)
+}
+
+/// A material of the name that there is none of.
+fn material_added(document: &Document, fault: &Diagnostic) -> Option<CodeActionOrCommand> {
+    let written = document.text.get(fault.span.start as usize..fault.span.end as usize)?;
+    let name = written.trim_matches('"');
+    let added = analysis::material_to_add(&document.text, document.syntax, name)?;
+    Some(CodeActionOrCommand::CodeAction(CodeAction {
+        title: format!("Add a material \"{name}\""),
+        kind: Some(CodeActionKind::QUICKFIX),
+        diagnostics: Some(diagnostics::translated(document, std::slice::from_ref(fault))),
+        edit: Some(in_document(document, vec![diagnostics::edit(document, &added)])),
+        ..CodeAction::default()
+    }))
 }
 
 /// The first error of a scene in words.

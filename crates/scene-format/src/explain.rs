@@ -2,7 +2,7 @@
 
 use crate::examples::{lines, snippet};
 use crate::expression;
-use crate::read::{PICK, REPEAT, everyday, expected};
+use crate::read::{PICK, REPEAT, everyday, expected, squeezed};
 use crate::reference::reference;
 use crate::schema::{StructDef, prose};
 use std::fmt::Write;
@@ -84,12 +84,24 @@ pub fn words() -> Vec<String> {
     words
 }
 
-/// What a word of the language means: `Sphere` with its fields, or `radius` wherever it stands. `None`: there is no
-/// such word.
+/// What a word of the language means: `Sphere` with its fields, or `radius` wherever it stands; one of every day or of
+/// another program, and one or many of a thing. `None`: there is no such word.
 pub fn explain_word(word: &str) -> Option<String> {
     let reference = reference();
     let pieces = pieces(&reference);
     let word = word.trim();
+    let mut forms = vec![word.to_owned()];
+    // `depth of field` and `look-at`, `spheres`, `keyframe`.
+    let same = squeezed(word);
+    forms.extend(words().into_iter().find(|known| known != word && squeezed(known) == same));
+    forms.extend(word.strip_suffix('s').filter(|one| one.len() > 2).map(str::to_owned));
+    if word.len() > 2 {
+        forms.push(format!("{word}s"));
+    }
+    forms.iter().find_map(|form| explained(form, &pieces))
+}
+
+fn explained(word: &str, pieces: &[Piece<'_>]) -> Option<String> {
     let mut out = String::new();
     // Choices first: `Object` is what is to be seen before it is a mapping.
     let is_it = |piece: &&Piece<'_>| called(piece.name).eq_ignore_ascii_case(word);
@@ -114,7 +126,7 @@ pub fn explain_word(word: &str) -> Option<String> {
         out.truncate(out.trim_end().len());
         out.push('\n');
         if piece.of.is_none() {
-            let kinds = kinds(piece.name, &pieces);
+            let kinds = kinds(piece.name, pieces);
             let is_shown = piece.lines.contains(&"```ron") || kinds.is_empty();
             let shown = pieces.iter().find(|kind| kind.of == Some(piece.name)).filter(|_| !is_shown);
             let words = shown.and_then(|kind| snippet(choice_of(piece.name), kind.name));
@@ -125,7 +137,7 @@ pub fn explain_word(word: &str) -> Option<String> {
     // A field in small letters is no kind of that name: `albedo` and the layer `Albedo`.
     if !pieces.iter().any(|piece| called(piece.name) == word) {
         let mut apart = if out.is_empty() { "" } else { "\n" };
-        for piece in &pieces {
+        for piece in pieces {
             for [name, takes, default, means] in piece.lines.iter().filter_map(|line| row(line)) {
                 if name.eq_ignore_ascii_case(word) {
                     let of = called(piece.name);
@@ -272,6 +284,19 @@ mod tests {
             ("cube", "called Box here"),
             ("fog", "surfaces only"),
             ("pointlight", "SphereLight"),
+            ("spheres", "Sphere, a kind of Object"),
+            ("keyframe", "keyframes(t, t0, value0"),
+            ("depth of field", "ThinLens: A thin lens"),
+            ("Look-At", "`look_at`"),
+            ("placement", "placements of Sphere"),
+            ("spp", "`samples`"),
+            ("bounce", "`max_bounces`"),
+            ("table", "Group"),
+            ("brightness", "exposure"),
+            ("png", "-o picture.png"),
+            ("video", "--frames"),
+            ("grass", "Scatter"),
+            ("zoom", "`fov`"),
         ] {
             let text = explain_word(word).unwrap_or_default();
             assert!(text.contains(told), "{word}: {text}");

@@ -5,7 +5,7 @@ use super::names;
 use super::place::{Expected, Step, expected, way};
 use crate::expression::{function, functions};
 use crate::files::FileKind;
-use crate::read::{REPEAT, expected as takes};
+use crate::read::{PICK, REPEAT, expected as takes};
 use crate::schema::{Content, EnumDef, FieldDef, StructDef, Type, prose};
 use crate::syntax::Syntax;
 use std::ops::Range;
@@ -82,20 +82,39 @@ pub fn complete(text: &str, syntax: Syntax, byte: usize) -> Completions {
             let fields = def.fields.iter().filter(|field| !way.written.iter().any(|written| written == field.name));
             out.items.extend(fields.map(|field| of_name(field, syntax)));
         }
-        Expected::KindAsKey(kind) => kinds(kind, &mut |def| {
-            for variant in def.variants.iter().filter(|variant| !matches!(variant.content, Content::Unit)) {
-                let whole = format!("{}{{ $0 }}", joined(variant.name, syntax));
+        Expected::KindAsKey(kind) => {
+            let mut offer = |name: &str, doc: &[&str]| {
+                let whole = format!("{}{{ $0 }}", joined(name, syntax));
                 let snippet = match (syntax, way.quoted) {
-                    (Syntax::Json, Some(_)) if text[byte..].starts_with('"') => variant.name.to_owned(),
+                    (Syntax::Json, Some(_)) if text[byte..].starts_with('"') => name.to_owned(),
                     (Syntax::Json, Some(_)) => whole[1..].to_owned(),
                     _ => whole,
                 };
-                out.items.push(of_variant(variant.name, prose(variant.doc), snippet));
+                out.items.push(of_variant(name, prose(doc), snippet));
+            };
+            kinds(kind, &mut |def| {
+                for variant in def.variants.iter().filter(|variant| !matches!(variant.content, Content::Unit)) {
+                    offer(variant.name, variant.doc);
+                }
+            });
+            // In place of an item, and of any value.
+            let listed = way.steps.last() == Some(&Step::Item) || has_list_header(&way.steps);
+            [&REPEAT, &PICK].into_iter().filter(|_| listed).for_each(|def| offer(def.name, def.doc));
+        }
+        Expected::Value(kind, field) => {
+            value(text, syntax, kind, field, &way, &mut out);
+            let of_kinds = out.items.iter().any(|item| item.kind == CompletionKind::Kind);
+            if way.quoted.is_none() && of_kinds && !matches!(kind.resolved(), Type::Struct(_)) {
+                out.items.push(of_variant(PICK.name, prose(PICK.doc), with_fields(PICK.name, &PICK, syntax)));
             }
-        }),
-        Expected::Value(kind, field) => value(text, syntax, kind, field, &way, &mut out),
+        }
     }
     out
+}
+
+/// Whether the way is that of a list's header in TOML, `[[objects]]`, which says nothing of items.
+fn has_list_header(steps: &[Step]) -> bool {
+    matches!(steps, [Step::Key(list)] if list == "objects" || list == "lights")
 }
 
 /// Within a header of TOML: the names of what has tables, and nothing behind them.
@@ -262,16 +281,19 @@ fn value(
                     (Content::Unit, _) if quoted => out.items.push(of_variant(name, doc, name.to_owned())),
                     (Content::Unit, _) => out.items.push(of_variant(name, doc, format!("\"{name}\""))),
                     _ if quoted => {}
-                    (Content::Value(_), Syntax::Ron) => out.items.push(of_variant(name, doc, format!("{name}($0)"))),
-                    (Content::Value(_), _) => {
-                        out.items.push(of_variant(name, doc, format!("{{ {}$0 }}", joined(name, syntax))));
+                    (Content::Value(field), Syntax::Ron) => {
+                        out.items.push(of_variant(name, doc, format!("{name}({})", place(field, syntax, 0))));
+                    }
+                    (Content::Value(field), _) => {
+                        let value = format!("{{ {}{} }}", joined(name, syntax), place(field, syntax, 0));
+                        out.items.push(of_variant(name, doc, value));
                     }
                     (Content::Struct(fields), syntax) => {
                         out.items.push(of_variant(name, doc, with_fields(name, fields, syntax)));
                     }
                 }
             }
-            if in_list && !quoted && syntax != Syntax::Toml {
+            if in_list && !quoted {
                 out.items.push(of_variant(REPEAT.name, prose(REPEAT.doc), with_fields(REPEAT.name, &REPEAT, syntax)));
             }
         }

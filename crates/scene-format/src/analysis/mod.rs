@@ -5,6 +5,7 @@
 //! wrong or half written: what stands before the cursor is read by `place`, whole texts by the reader's own tree, as
 //! far as it goes.
 
+mod added;
 mod colors;
 mod complete;
 mod hover;
@@ -16,6 +17,7 @@ mod place_toml;
 mod symbols;
 mod visit;
 
+pub use added::material_to_add;
 pub use colors::{ColorPlace, color_texts, colors};
 pub use complete::{Completion, CompletionKind, Completions, complete};
 pub use hover::{Hover, hover};

@@ -3,6 +3,7 @@
 use super::*;
 use crate::diagnostic::Edit;
 use crate::files::FileKind;
+use crate::render::apply_edits;
 use crate::syntax::Syntax::{Json, Ron, Toml};
 use crate::{Syntax, examples, load_str};
 use std::path::Path;
@@ -138,7 +139,15 @@ fn values_are_offered_where_values_stand() {
     offers("[effects]\ntone_map = \"|", Toml, &["Filmic"], &[]);
     offers("[materials]\nred = |", Toml, &["Diffuse"], &["red"]);
     offers("[materials]\nred = \"Mirror\"\n[[objects]]\nSphere = { material = \"|", Toml, &["red"], &[]);
-    offers("objects = [{ |", Toml, &["Sphere"], &[]);
+    offers("objects = [{ |", Toml, &["Sphere", "Repeat"], &[]);
+    offers("objects = [|", Toml, &["Sphere", "Repeat"], &[]);
+    offers("[[objects]]\n|", Toml, &["Sphere", "Repeat", "Pick"], &[]);
+    offers("{ \"objects\": [{ \"|\"", Json, &["Sphere", "Repeat", "Pick"], &[]);
+    offers("Scene(objects: [Sphere(material: |", Ron, &["Pick"], &["Repeat"]);
+    let (text, at) = cursor("Scene(objects: [Box(transform: [|])])");
+    let proposals = complete(&text, Ron, at).items;
+    let translate = proposals.iter().find(|item| item.label == "Translate").map(|item| item.snippet.as_str());
+    assert_eq!(translate, Some("Translate(($0))"));
     assert!(labels("Scene( // |", Ron).is_empty() && labels("# |", Toml).is_empty());
     let (text, at) = cursor("Scene(objects: [Mesh(file: \"assets/c|\")])");
     assert_eq!(complete(&text, Ron, at).files, Some((FileKind::Mesh, "assets/c".to_owned())));
@@ -152,6 +161,47 @@ fn proposals_are_words_of_the_language() {
         let filled = item.snippet.replace("($1)", "(0, 0, 0)").replace("$2", "1").replace("$1", "1").replace("$0", "");
         let scene = text.replace("[]", &format!("[{filled}]"));
         assert!(load_str("s", &scene, Ron, Path::new(""), &[]).is_ok(), "{scene}");
+    }
+}
+
+/// A material that is named and not there can be added, in all syntaxes and wherever others stand.
+#[test]
+fn a_material_is_added_among_others_or_before_the_objects() {
+    for (text, syntax) in [
+        ("Scene(\n    background: 1,\n    objects: [\n        Box(material: \"new one\"),\n    ],\n)\n", Ron),
+        ("Scene(background: 1, objects: [Box(size: 1, material: \"new one\")])", Ron),
+        ("Scene(background: 1, materials: {}, objects: [Box(size: 1, material: \"new one\")])", Ron),
+        ("Scene(background: 1, materials: {\"a\": Mirror()}, objects: [Box(size: 1, material: \"new one\")])", Ron),
+        (
+            "Scene(\n  background: 1,\n  materials: { // all\n    \"a\": Mirror(),\n  },\n  objects: [Box(size: 1, \
+             material: \"new one\")],\n)",
+            Ron,
+        ),
+        ("background = 1\n\n[[objects]]\nBox = { size = 1, material = \"new one\" }\n", Toml),
+        ("background = 1\nobjects = [{ Box = { size = 1, material = \"new one\" } }]\n", Toml),
+        (
+            "background = 1\n[materials]\na = { Mirror = {} }\n[[objects]]\nBox = { size = 1, material = \"new one\" }\n",
+            Toml,
+        ),
+        (
+            "background = 1\n[materials.a.Mirror]\nreflectance = 1\n[[objects]]\nBox = { size = 1, material = \"new one\" }\n",
+            Toml,
+        ),
+        ("{ \"background\": 1, \"objects\": [{ \"Box\": { \"size\": 1, \"material\": \"new one\" } }] }", Json),
+        (
+            "{\n  \"background\": 1,\n  \"materials\": {\n    \"a\": { \"Mirror\": {} }\n  },\n  \"objects\": [{ \"Box\": \
+             { \"size\": 1, \"material\": \"new one\" } }]\n}",
+            Json,
+        ),
+    ] {
+        let text = text.replace("Box(material", "Box(size: 1, material");
+        let edit = material_to_add(&text, syntax, "new one").expect("a place");
+        let more = apply_edits(&text, &[edit]);
+        assert!(load_str("s", &text, syntax, Path::new(""), &[]).is_err());
+        let loaded =
+            load_str("s", &more, syntax, Path::new(""), &[]).unwrap_or_else(|error| panic!("{more}\n{error:?}"));
+        assert!(loaded.scene.materials.iter().any(|named| &*named.name.value == "new one"), "{more}");
+        assert_eq!(material_to_add(&more, syntax, "new one"), None);
     }
 }
 

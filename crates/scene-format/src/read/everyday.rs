@@ -2,6 +2,7 @@
 
 use super::hints::{field_of_others, kind_elsewhere, other_kind};
 use super::of_kinds::of_another_list;
+use super::synonyms::called_elsewhere;
 use crate::desc::{Camera, Effects, Layer, Light, Material, Object, Scene, Sphere, Transform};
 use crate::schema::{EnumDef, StructDef, Type};
 use crate::syntax::Syntax;
@@ -31,6 +32,52 @@ const WORDS: &[(&[&str], &str)] = &[
     (&["color", "colour", "colors", "colours"], "colours are red, green and blue, (0.8, 0.2, 0.1), or \"#d03a2b\""),
     (&["wall", "room", "house"], "walls are Boxes or Rectangles; a Box seen from inside is a room"),
     (&["water"], "water is Transparent(ior: 1.33)"),
+    (
+        &["table", "chair", "furniture", "shelf", "desk", "bench", "stool", "cupboard"],
+        "furniture is a Group of Boxes and Cylinders; legs are one of them with \
+         `placements: Grid(count: (2, 1, 2), spacing: (1, 1, 0.6))`",
+    ),
+    (
+        &["brightness", "bright", "dark", "contrast", "overexposed", "underexposed"],
+        "how bright a picture is shown is `effects: Effects(exposure: 1)`, twice the light a stop; its contrast is that \
+         of the `tone_map`",
+    ),
+    (
+        &["png", "exr", "hdr", "pfm", "jpg", "jpeg", "tiff", "format", "export", "output_file"],
+        "the name says the format: `tracer render scene.ron -o picture.png`, or .exr, .hdr, .pfm",
+    ),
+    (
+        &["video", "movie", "gif", "mp4", "clip", "film", "motion"],
+        "a film is rendered frame by frame: `animation: Animation(frames: 48)` in the scene, `frame` or `time` in its \
+         expressions, and `tracer render scene.ron --frames 0-47 -o frame_####.png`",
+    ),
+    (
+        &["grass", "hair", "fur", "tree", "forest", "leaf", "leaves", "particle", "crowd", "pebbles", "stones"],
+        "many of one thing are its `placements: Scatter(..)`, or a `Repeat`; what grows is a Mesh, a Cone or a Tube",
+    ),
+    (
+        &["letters", "font", "word", "writing", "label", "title"],
+        "letters are a mesh of another program, or an Extrude of their outlines; a picture of them is a Texture",
+    ),
+    (
+        &["rough", "gloss", "polished", "matte", "matt", "dull"],
+        "matt is Diffuse; gloss is BlinnPhong, whose `exponent` is 10 where dull and 100000 nearly a mirror; metal is a \
+         Conductor with its `roughness`",
+    ),
+    (
+        &["grain", "noisy", "fireflies", "firefly", "speckles", "grainy"],
+        "noise becomes less with more `samples`; `--noise 0.02` stops when it is good, and `--denoise` removes what is \
+         left",
+    ),
+    (
+        &["bounce", "bounces", "max_depth", "recursion"],
+        "how often light may be turned is `max_bounces`: `render: Render(max_bounces: 8)`",
+    ),
+    (
+        &["zoom", "closer", "telephoto", "wide_angle"],
+        "how much is seen is the camera's `fov` in degrees, or its `focal_length` in millimetres: the smaller `fov`, the \
+         nearer",
+    ),
     (
         &["f_stop", "fstop", "f-stop", "fnumber", "bokeh"],
         "the `aperture` of a ThinLens is its focal length over the f-number",
@@ -66,6 +113,14 @@ pub(crate) fn everyday(word: &str) -> Vec<String> {
     let structs = [Scene::TYPE, Camera::TYPE, Effects::TYPE, Sphere::TYPE].into_iter().filter_map(struct_of);
     for hint in structs.filter_map(|def| field_of_others(&lower, def, Syntax::Ron)) {
         say(hint.to_owned());
+    }
+    // Fields have many names; what is known better needs none of them.
+    const MOST: usize = 4;
+    let fields: Vec<String> = called_elsewhere(&lower).iter().map(|field| format!("`{field}`")).collect();
+    if said.is_empty() && (1..=MOST).contains(&fields.len()) {
+        let first = fields[0].trim_matches('`');
+        let word = word.trim();
+        said.push(format!("{word} is called {} here: `tracer explain {first}` tells more", fields.join(" or ")));
     }
     said
 }

@@ -46,7 +46,7 @@ pub(crate) use part::part;
 pub(crate) use pick::{PICK, pick_body};
 use repeat::MOST_ITEMS;
 pub(crate) use repeat::{REPEAT, repeat_body};
-pub(crate) use synonyms::synonyms;
+pub(crate) use synonyms::{squeezed, synonyms};
 use told::{SHOWN, article_free, field_list, field_words};
 pub(crate) use told::{describe, hinted, plain, shortened};
 pub(crate) use value::{expected, expected_for, hex_color, linear_from_srgb, none};
@@ -56,6 +56,7 @@ pub(crate) use vars::{Vars, is_expression};
 use crate::codes;
 use crate::desc::{ITEMS, Nested, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
+use crate::examples::lines;
 use crate::schema::{FieldDef, StructDef, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
@@ -392,7 +393,7 @@ impl<'r> Reader<'r> {
             0 => self.report(
                 Diagnostic::error(codes::EXACTLY_ONE, item.head(), format!("{} needs one of {choice}", def.noun))
                     .expected(format!("exactly one of {choice}"))
-                    .hint(format!("add `{}`", def.exactly_one[0])),
+                    .hint(one_of(def, item.syntax())),
             ),
             _ => {
                 let mut slots: Vec<_> =
@@ -573,4 +574,14 @@ impl<'r> Reader<'r> {
 
 pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static str> {
     def.fields.iter().map(|field| field.name)
+}
+
+/// How one of the fields of which there must be one is added: as in the shortest example.
+fn one_of(def: &StructDef, syntax: Syntax) -> String {
+    let of_kind = |line: &&str| line.split('(').next() == Some(def.name);
+    let examples = || def.exactly_one.iter().filter_map(|field| lines::field(field, def.name)).filter(of_kind);
+    match examples().min_by_key(|line| line.len()).filter(|_| syntax == Syntax::Ron) {
+        Some(example) => format!("add one, as in {example}"),
+        None => syntax.of_toml(format!("add `{} = ..`", def.exactly_one[0])).into_owned(),
+    }
 }

@@ -146,8 +146,19 @@ const OF_TORUS: &[(&str, &[&str])] = &[
 ];
 
 /// A word without what programs join words by: `lookAt`, `look_at` and `lookat` are one.
-pub(super) fn squeezed(name: &str) -> String {
+pub(crate) fn squeezed(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, '_' | '-' | ' ')).map(|c| c.to_ascii_lowercase()).collect()
+}
+
+/// Our fields that other programs call so.
+pub(super) fn called_elsewhere(name: &str) -> Vec<&'static str> {
+    let plain = squeezed(name);
+    let same = |others: &[&str]| others.iter().any(|other| squeezed(other) == plain);
+    let mut fields: Vec<&'static str> =
+        SYNONYMS.iter().filter(|(_, others)| same(others)).map(|(ours, _)| *ours).collect();
+    fields.sort_unstable();
+    fields.dedup();
+    fields
 }
 
 /// What other programs call a field of ours by this name, the most likely first.

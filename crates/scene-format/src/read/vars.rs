@@ -153,12 +153,14 @@ impl Reader<'_> {
             let name = key.text();
             if !expression::is_name(&name) {
                 let known = expression::is_known(&name);
+                let call = expression::function(&name).map_or(String::new(), |(call, _)| format!("`{call}` is one; "));
                 let why =
                     if known { "has a meaning of its own in expressions" } else { "cannot stand in an expression" };
                 self.path.push(Step::Key(name.clone().into_owned()));
                 self.report(
                     Diagnostic::error(codes::BAD_NAME, key.span(), format!("`{}` {why}", shortened(&name)))
-                        .expected("a name of letters, digits and `_` without a meaning of its own"),
+                        .expected("a name of letters, digits and `_` without a meaning of its own")
+                        .hint(if known { format!("{call}choose another name, as `my_{name}`") } else { String::new() }),
                 );
                 self.path.pop();
                 continue;

@@ -172,7 +172,8 @@ impl<'p> Parser<'p> {
                     return;
                 }
                 let reckoned = !plain && (arithmetic::reckons(after) || arithmetic::chooses(after));
-                if (expression::is_known(word) || reckoned) && self.arithmetic(start) {
+                let called = || after.trim_start().starts_with('(') || expression::function(word).is_none();
+                if (expression::is_known(word) && called() || reckoned) && self.arithmetic(start) {
                     return;
                 }
                 self.at += length;

@@ -91,8 +91,10 @@ fn check(args: &CheckArgs, scene: PathBuf, shell: &Shell) -> Result<(), Failure>
         return Err(Failure::WrongScene);
     }
     if args.diagnostics == DiagnosticsForm::Text && !args.quiet {
-        let (objects, lights) =
-            (counted(desc.objects.len(), "object"), counted(tracer_core::shining_objects(&scene), "light"));
+        let copies: u64 = desc.objects.iter().map(|object| object.value.placements().known_copies()).sum();
+        let places = if copies == desc.objects.len() as u64 { String::new() } else { format!(" in {copies} places") };
+        let objects = format!("{}{places}", counted(desc.objects.len(), "object"));
+        let lights = counted(tracer_core::shining_objects(&scene), "light");
         let frames = frames.count.map_or(String::new(), |frames| format!(", {frames}"));
         let cameras = args_of_scene
             .camera

@@ -175,7 +175,12 @@ impl Facts {
             format!(
                 "{} in {}, {} in {}",
                 s.triangles,
-                counted(s.meshes as usize, "mesh"),
+                // Some shapes are made of triangles, too.
+                match (made, s.meshes) {
+                    (0, meshes) => counted(meshes as usize, "mesh"),
+                    (_, 1) => "1 shape".to_owned(),
+                    (_, shapes) => format!("{shapes} shapes"),
+                },
                 s.placed_triangles,
                 counted(s.instances as usize, "place")
             ),
