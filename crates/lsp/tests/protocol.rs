@@ -326,6 +326,22 @@ fn edits_that_mend_are_preferred() {
     editor.close();
 }
 
+/// A material that is named and not there is added by an action, where no name is near.
+#[test]
+fn a_material_that_is_not_there_is_added() {
+    let text = "Scene(background: 1, objects: [Box(size: 1, material: \"moss\")])";
+    let mut editor = Editor::open("file:///scenes/a.ron", text);
+    let (uri, told) = (editor.uri.clone(), editor.diagnostics());
+    let range = told[0]["range"].clone();
+    let params = json!({ "textDocument": { "uri": uri }, "range": range, "context": { "diagnostics": told } });
+    let actions = editor.ask("textDocument/codeAction", params);
+    assert_eq!(actions[0]["title"], "Add a material \"moss\"");
+    let edit = &actions[0]["edit"]["changes"][&uri][0];
+    assert_eq!(edit["newText"], "materials: { \"moss\": Diffuse(albedo: 0.5) }, ");
+    assert_eq!(edit["range"]["start"]["character"], 21);
+    editor.close();
+}
+
 /// A scene with errors is not laid out, and the editor is told why.
 #[test]
 fn why_a_scene_is_not_laid_out_is_told() {

@@ -126,7 +126,7 @@ fn many_scenes_are_checked() {
     ran.says(&["centre", "no.obj", "the red channel of the albedo", "no.png", "3 of 5 scenes are wrong"]);
     assert!(out.contains("b.ron: ok, 1 object") && out.contains("lib.ron: ok, to be included"), "{out}");
     sandbox.run(&["fmt", "lib.ron"]).ends(0);
-    assert!(sandbox.text("lib.ron").contains("vars: {\"h\": 2}"), "{}", sandbox.text("lib.ron"));
+    assert!(sandbox.text("lib.ron").contains("vars: { \"h\": 2 }"), "{}", sandbox.text("lib.ron"));
     // Names that nobody has given and values out of range are laid out all the same.
     sandbox.write("c.ron", "Scene(background: 1, objects: [Sphere(center: (0,0,0), radius: -1, material: \"rde\")])");
     sandbox.run(&["fmt", "c.ron"]).ends(0);
