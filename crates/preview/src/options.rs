@@ -61,6 +61,9 @@ pub trait Host: Send + Sync + 'static {
     /// Bytes of memory that are free, if the system tells.
     fn free_memory(&self) -> Option<u64>;
 
+    /// What is wrong with the scene, for whoever looks elsewhere than at the page; `None`: it is right again.
+    fn wrong(&self, _faults: Option<&str>) {}
+
     /// Where meshes and trees are kept from one run of the program to the next, if anywhere.
     fn store(&self) -> Option<Arc<dyn Store>> {
         None

@@ -202,10 +202,17 @@ impl Studio<'_> {
         let before: Vec<PathBuf> = watched.stamps().into_keys().collect();
         watched.after_reading(before.into_iter().chain(files), began, News::Anything);
         drop(watched);
-        self.shared.change(|state| {
+        let faults: Vec<&str> = told.iter().map(|told| told.text.trim_end()).collect();
+        let faults = faults.join("\n\n");
+        let news = self.shared.change(|state| {
             state.phase = Phase::Wrong;
+            let news = state.told != told;
             state.told = told;
+            news
         });
+        if news {
+            self.shared.host.wrong(Some(&faults));
+        }
     }
 
     /// Compiles and renders.
@@ -242,12 +249,16 @@ impl Studio<'_> {
         let written = read.written;
         self.stages += 1;
         self.shared.done.store(0, Ordering::Relaxed);
-        self.shared.change(|state| {
+        let was_wrong = self.shared.change(|state| {
             state.phase = Phase::Rendering;
-            state.told = warnings;
+            let before = std::mem::replace(&mut state.told, warnings);
             (state.asked, state.begun) = (scene.samples, 0);
             state.begin();
+            before.iter().any(|told| told.severity == "error")
         });
+        if was_wrong {
+            self.shared.host.wrong(None);
+        }
         self.render(desc, scene, written);
     }
 

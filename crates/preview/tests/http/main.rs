@@ -169,7 +169,8 @@ fn a_port_that_is_taken_is_told() {
         editor: None,
     };
     let listen = tracer_preview::Listen { port, ..support::ANY_PORT };
-    let error = tracer_preview::Preview::start(options, listen, Box::new(support::Program)).err().expect("it is taken");
+    let error =
+        tracer_preview::Preview::start(options, listen, Box::<support::Program>::default()).err().expect("it is taken");
     assert_eq!(
         error.to_string(),
         format!("port {port} is taken by another program; name another one, or none for any that is free")

@@ -50,6 +50,20 @@ fn each_way_to_save_is_seen() {
     assert_eq!(stage_of(&sandbox.state()), stage);
 }
 
+/// Whoever looks at the terminal is told of a wrong scene once, and when it is right again.
+#[test]
+fn what_is_wrong_is_told_beside_the_page() {
+    let sandbox = Sandbox::new(SCENE);
+    let stage = stage_of(&sandbox.done_after(0));
+    assert!(sandbox.wrong.lock().expect("nobody panics").is_empty());
+    sandbox.rename_save("scene.ron", &SCENE.replace("radius", "radus"));
+    sandbox.until(wrong);
+    sandbox.rename_save("scene.ron", &SCENE.replace("0.8", "0.7"));
+    sandbox.done_after(stage);
+    let told = sandbox.wrong.lock().expect("nobody panics").clone();
+    assert!(matches!(&told[..], [Some(faults), None] if faults.contains("radus") && faults.contains("^")), "{told:?}");
+}
+
 #[test]
 fn ten_saves_in_a_second_end_with_the_last() {
     let sandbox = Sandbox::new(SCENE);

@@ -7,6 +7,7 @@ use std::fs;
 use std::io::{Read, Write};
 use std::net::{IpAddr, Ipv4Addr, TcpStream};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use tracer_core::{Film, Look, develop};
@@ -29,8 +30,11 @@ pub const ANY_PORT: Listen = Listen { address: IpAddr::V4(Ipv4Addr::LOCALHOST), 
 /// What comes late because other tests run beside it must not fail: nothing here takes a second by itself.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Writes bytes that tell what they were made of.
-pub struct Program;
+/// Writes bytes that tell what they were made of, and keeps what was told of wrong scenes.
+#[derive(Default)]
+pub struct Program {
+    pub wrong: Arc<Mutex<Vec<Option<String>>>>,
+}
 
 impl Host for Program {
     fn encode(&self, desc: &SceneDesc, film: &Film, look: &Look, kind: Kind) -> Result<Vec<u8>, String> {
@@ -43,6 +47,10 @@ impl Host for Program {
         fs::write(path, bytes).map_err(|error| error.to_string())
     }
 
+    fn wrong(&self, faults: Option<&str>) {
+        self.wrong.lock().expect("nobody panics").push(faults.map(str::to_owned));
+    }
+
     fn free_memory(&self) -> Option<u64> {
         Some(1 << 30)
     }
@@ -51,6 +59,8 @@ impl Host for Program {
 pub struct Sandbox {
     pub folder: TempDir,
     pub preview: Preview,
+    /// What was told of wrong scenes elsewhere than on the page.
+    pub wrong: Arc<Mutex<Vec<Option<String>>>>,
 }
 
 /// What came back.
@@ -89,8 +99,10 @@ impl Sandbox {
             editor: None::<Editor>,
         };
         change(&mut options);
-        let preview = Preview::start(options, ANY_PORT, Box::new(Program)).expect("it starts");
-        Sandbox { folder, preview }
+        let program = Program::default();
+        let wrong = Arc::clone(&program.wrong);
+        let preview = Preview::start(options, ANY_PORT, Box::new(program)).expect("it starts");
+        Sandbox { folder, preview, wrong }
     }
 
     pub fn path(&self, name: &str) -> PathBuf {

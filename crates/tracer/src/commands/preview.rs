@@ -38,6 +38,8 @@ pub(super) fn run(args: &PreviewArgs, shell: &Shell) -> Result<ExitCode, Failure
     let program = Box::new(Program {
         set: args.overrides().into_iter().map(|set| set.argument).collect(),
         cache: Cache::open(&args.cache, None, shell)?,
+        // What is drawn in the terminal is all that stands there.
+        told: Some(*shell).filter(|shell| args.terminal.is_none() && shell.verbosity > Verbosity::Quiet),
     });
     if let Some(how) = args.terminal {
         return in_terminal(args, options, program, how);
@@ -137,6 +139,8 @@ fn elsewhere(args: &PreviewArgs) -> String {
 struct Program {
     set: Vec<String>,
     cache: Option<Cache>,
+    /// Where a wrong scene is told of beside the page.
+    told: Option<Shell>,
 }
 
 impl Program {
@@ -150,6 +154,12 @@ impl Program {
 }
 
 impl Host for Program {
+    fn wrong(&self, faults: Option<&str>) {
+        if let Some(shell) = &self.told {
+            shell.say(faults.unwrap_or("the scene is right again"));
+        }
+    }
+
     fn encode(&self, desc: &SceneDesc, film: &Film, look: &Look, kind: Kind) -> Result<Vec<u8>, String> {
         let encoding = match kind {
             Kind::Png => Encoding::Png(Bits::Eight),
