@@ -167,34 +167,30 @@ fn proposals_are_words_of_the_language() {
 /// A material that is named and not there can be added, in all syntaxes and wherever others stand.
 #[test]
 fn a_material_is_added_among_others_or_before_the_objects() {
-    for (text, syntax) in [
-        ("Scene(\n    background: 1,\n    objects: [\n        Box(material: \"new one\"),\n    ],\n)\n", Ron),
-        ("Scene(background: 1, objects: [Box(size: 1, material: \"new one\")])", Ron),
-        ("Scene(background: 1, materials: {}, objects: [Box(size: 1, material: \"new one\")])", Ron),
-        ("Scene(background: 1, materials: {\"a\": Mirror()}, objects: [Box(size: 1, material: \"new one\")])", Ron),
+    let (ron, toml) = ("Box(size: 1, material: \"new one\")", "Box = { size = 1, material = \"new one\" }");
+    let json = "{ \"Box\": { \"size\": 1, \"material\": \"new one\" } }";
+    for (text, object, syntax) in [
+        ("Scene(\n    background: 1,\n    objects: [\n        OBJECT,\n    ],\n)\n", ron, Ron),
+        ("Scene(background: 1, objects: [OBJECT])", ron, Ron),
+        ("Scene(background: 1, materials: {}, objects: [OBJECT])", ron, Ron),
+        ("Scene(background: 1, materials: {\"a\": Mirror()}, objects: [OBJECT])", ron, Ron),
         (
-            "Scene(\n  background: 1,\n  materials: { // all\n    \"a\": Mirror(),\n  },\n  objects: [Box(size: 1, \
-             material: \"new one\")],\n)",
+            "Scene(\n  background: 1,\n  materials: { // all\n    \"a\": Mirror(),\n  },\n  objects: [OBJECT],\n)",
+            ron,
             Ron,
         ),
-        ("background = 1\n\n[[objects]]\nBox = { size = 1, material = \"new one\" }\n", Toml),
-        ("background = 1\nobjects = [{ Box = { size = 1, material = \"new one\" } }]\n", Toml),
+        ("background = 1\n\n[[objects]]\nOBJECT\n", toml, Toml),
+        ("background = 1\nobjects = [{ OBJECT }]\n", toml, Toml),
+        ("background = 1\n[materials]\na = { Mirror = {} }\n[[objects]]\nOBJECT\n", toml, Toml),
+        ("background = 1\n[materials.a.Mirror]\nreflectance = 1\n[[objects]]\nOBJECT\n", toml, Toml),
+        ("{ \"background\": 1, \"objects\": [OBJECT] }", json, Json),
         (
-            "background = 1\n[materials]\na = { Mirror = {} }\n[[objects]]\nBox = { size = 1, material = \"new one\" }\n",
-            Toml,
-        ),
-        (
-            "background = 1\n[materials.a.Mirror]\nreflectance = 1\n[[objects]]\nBox = { size = 1, material = \"new one\" }\n",
-            Toml,
-        ),
-        ("{ \"background\": 1, \"objects\": [{ \"Box\": { \"size\": 1, \"material\": \"new one\" } }] }", Json),
-        (
-            "{\n  \"background\": 1,\n  \"materials\": {\n    \"a\": { \"Mirror\": {} }\n  },\n  \"objects\": [{ \"Box\": \
-             { \"size\": 1, \"material\": \"new one\" } }]\n}",
+            "{\n  \"background\": 1,\n  \"materials\": {\n    \"a\": { \"Mirror\": {} }\n  },\n  \"objects\": [OBJECT]\n}",
+            json,
             Json,
         ),
     ] {
-        let text = text.replace("Box(material", "Box(size: 1, material");
+        let text = text.replace("OBJECT", object);
         let edit = material_to_add(&text, syntax, "new one").expect("a place");
         let more = apply_edits(&text, &[edit]);
         assert!(load_str("s", &text, syntax, Path::new(""), &[]).is_err());

@@ -92,8 +92,8 @@ fn in_brackets(out: &mut String, name: &str, fields: &[Entry], depth: usize, col
     block(out, &format!("{name}("), fields, ")", depth);
 }
 
-/// Writes fields behind the bracket and, from the first on that does not fit there, on the next line; `false` where they
-/// have comments, or do not fit.
+/// Writes fields behind the bracket and, from the first on that does not fit there, on the next line; `false` where
+/// they have comments, or do not fit.
 fn two_lines(out: &mut String, fields: &[Entry], depth: usize, limit: usize) -> bool {
     let own_lines = |field: &Entry| field.before.iter().any(|line| line == OWN_LINES);
     let plain = |field: &Entry| field.after.is_none() && field.value != Form::Absent && !has_comments(&field.value);

@@ -39,8 +39,8 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
     (
         &["brightness", "bright", "dark", "contrast", "overexposed", "underexposed"],
-        "how bright a picture is shown is `effects: Effects(exposure: 1)`, twice the light a stop; its contrast is that \
-         of the `tone_map`",
+        "how bright a picture is shown is `effects: Effects(exposure: 1)`, twice the light a stop; its contrast is \
+         that of the `tone_map`",
     ),
     (
         &["png", "exr", "hdr", "pfm", "jpg", "jpeg", "tiff", "format", "export", "output_file"],
@@ -61,8 +61,8 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
     (
         &["rough", "gloss", "polished", "matte", "matt", "dull"],
-        "matt is Diffuse; gloss is BlinnPhong, whose `exponent` is 10 where dull and 100000 nearly a mirror; metal is a \
-         Conductor with its `roughness`",
+        "matt is Diffuse; gloss is BlinnPhong, whose `exponent` is 10 where dull and 100000 nearly a mirror; metal is \
+         a Conductor with its `roughness`",
     ),
     (
         &["grain", "noisy", "fireflies", "firefly", "speckles", "grainy"],
@@ -75,8 +75,8 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
     (
         &["zoom", "closer", "telephoto", "wide_angle"],
-        "how much is seen is the camera's `fov` in degrees, or its `focal_length` in millimetres: the smaller `fov`, the \
-         nearer",
+        "how much is seen is the camera's `fov` in degrees, or its `focal_length` in millimetres: the smaller `fov`, \
+         the nearer",
     ),
     (
         &["f_stop", "fstop", "f-stop", "fnumber", "bokeh"],

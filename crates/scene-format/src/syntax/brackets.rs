@@ -176,8 +176,8 @@ fn closed_next(text: &str, at: usize, open: Open) -> bool {
         && line.len() - first.len() == open.indent
 }
 
-/// Whether the innermost bracket is closed too early at `at`: its fields go on, on this line or on the next, or the next
-/// line closes it again. The line begins at `line` and is indented by `indent`.
+/// Whether the innermost bracket is closed too early at `at`: its fields go on, on this line or on the next, or the
+/// next line closes it again. The line begins at `line` and is indented by `indent`.
 pub(super) fn closes_too_early(text: &str, open: &[Open], at: usize, line: usize, indent: usize) -> bool {
     let Some((inner, outer)) = open.split_last().filter(|(inner, _)| inner.bracket == b'(') else { return false };
     let outer = outer.last();
