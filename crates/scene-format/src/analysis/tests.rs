@@ -185,7 +185,7 @@ fn a_material_is_added_among_others_or_before_the_objects() {
         ("background = 1\n[materials.a.Mirror]\nreflectance = 1\n[[objects]]\nOBJECT\n", toml, Toml),
         ("{ \"background\": 1, \"objects\": [OBJECT] }", json, Json),
         (
-            "{\n  \"background\": 1,\n  \"materials\": {\n    \"a\": { \"Mirror\": {} }\n  },\n  \"objects\": [OBJECT]\n}",
+            "{\n  \"background\": 1,\n  \"materials\": {\n    \"a\": { \"Mirror\": {} }\n  },\n  \"objects\": [OBJECT] }",
             json,
             Json,
         ),
