@@ -41,7 +41,12 @@ fn the_noisy_picture_is_kept_beside_it() {
 fn what_it_did_is_told() {
     let sandbox = Sandbox::new();
     let arguments = ["render", "scene.ron", "-s", "8", "-o", "a.png", "--denoise", "--report", "r.json"];
-    sandbox.run(&arguments).ends(0).says(&["denoised in ", " s: changed by ", " %, error from about "]);
+    sandbox.run(&arguments).ends(0).says(&[
+        "denoised in ",
+        " s: errors about ",
+        " times smaller",
+        " before it was denoised",
+    ]);
     let report = json(&sandbox, "r.json");
     let of = |name: &str| report["denoise"][name].as_f64().expect("a number");
     assert!(0.0 < of("change") && of("error_after") < of("error_before") && of("error_before") < 1.0, "{report}");

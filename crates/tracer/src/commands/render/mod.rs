@@ -263,6 +263,7 @@ fn one(
         };
         let noise =
             noise(film.relative_noise(), film.noise_rate(), fewest).map_or(String::new(), |noise| format!("; {noise}"));
+        let noise = if denoised.is_some() { noise.replacen(" %", " % before it was denoised", 1) } else { noise };
         shell.say(&format!("{names} in {:.2} s, {speed}{noise}", seconds.total));
     }
     if let (Some(path), Some(report)) = (&args.report, &mut report) {
