@@ -373,7 +373,7 @@ pub struct Samples {
 /// Noise of the picture.
 #[derive(Debug, Serialize)]
 pub struct Noise {
-    /// Root mean square of the standard error of a pixel's luminance, relative to the picture's mean luminance; of
+    /// Root mean square of the standard error of a pixel's luminance, relative to itself or, where it is darker, to the picture's; of
     /// parts that were merged an upper bound.
     pub relative: f64,
 }

@@ -16,6 +16,9 @@
 //! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
 //! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
 //!
+//! Errors are measured by what they are seen beside: by the pixel's own luminance, or by [`Film::floor`] where that is
+//! darker. By the mean luminance alone, one lamp smaller than a pixel would be nearly all of the noise, and of the mean.
+//!
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
 //! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
 //! third of such n, by Gauss. Below [`FEW`], the noise is never told as less than that of independent samples.
@@ -34,8 +37,8 @@ const MANY: f64 = 24.0;
 pub(super) struct Octave {
     /// The samples of each pixel when it ended, a power of two; 0: there was none.
     pub samples: u32,
-    /// D: mean square difference between the luminance of the two halves of the samples, in squares of the film's unit;
-    /// at so many samples, at half as many, and at a fourth. Zero where it is not known.
+    /// D: mean square difference between the luminance of the two halves of the samples, relative to what it is seen
+    /// beside; at so many samples, at half as many, and at a fourth. Zero where it is not known.
     pub differences: [f64; 3],
     /// m: pixels that bear the first of these.
     pub pixels: f64,
@@ -79,6 +82,12 @@ fn shortened(x: f32) -> f32 {
     f32::from_bits(x.to_bits().saturating_add(0x80) & !0xff)
 }
 
+/// An error of a pixel of this mean relative to what it is seen beside: itself, or the floor where it is darker.
+fn relative(error: f64, mean: f64, floor: f64) -> f64 {
+    let beside = mean.max(floor);
+    if beside > 0.0 { error / beside } else { 0.0 }
+}
+
 /// What pixels bear of a variance.
 #[derive(Clone, Copy, Default)]
 struct Borne {
@@ -114,12 +123,13 @@ impl Film {
         }
         let Octave { samples: before, differences: [last, half, _], .. } = self.octave;
         let light = self.light_count();
+        let floor = self.floor();
         let put_down = |tile: &mut Tile| {
             let mut borne = Borne::default();
             for pixel in 0..PIXELS {
                 let mean = tile.luminance(pixel, light);
                 // Of the first half and of the second.
-                let difference = mean - f64::from(tile.octave[pixel]);
+                let difference = relative(mean - f64::from(tile.octave[pixel]), mean, floor);
                 borne.add(4.0 * difference * difference);
                 tile.octave[pixel] = shortened(mean as f32);
             }
@@ -169,22 +179,36 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// Root mean square over the pixels of their standard error, relative to the mean luminance: the noise of the
-    /// picture as one number. It is seen from how much pictures of other samples differ; of parts that were merged it
-    /// is what independent samples would have, which is more. Zero where no pixel has two samples: nobody can tell.
+    /// Root mean square over the pixels of their standard error, relative to their luminance, or to that of the picture
+    /// where they are darker, the square of the mean root: the noise of the picture as one number. It is seen from how
+    /// much pictures of other samples differ; of parts that were merged it is what independent samples would have,
+    /// which is more. Zero where no pixel has two samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
-        // In the sums' own unit: squares of the scene's might leave the range of numbers.
-        let mean = self.pixels().map(|(x, y)| luminance(self.radiance(x, y)) / self.unit).sum::<f64>() / self.count();
+        let floor = self.floor();
         let independent = || {
-            let variance = |(x, y)| self.variance(x, y) / self.unit / self.unit;
+            // In the sums' own unit: squares of the scene's might leave the range of numbers.
+            let variance = |(x, y)| {
+                let (variance, mean) = (self.variance(x, y) / self.unit / self.unit, luminance(self.radiance(x, y)));
+                relative(variance.sqrt(), mean / self.unit, floor).powi(2)
+            };
             self.pixels().map(variance).sum::<f64>() / self.count()
         };
-        let variance = match self.seen_variance() {
+        let variance = match self.seen_variance(floor) {
             Some((seen, pixels)) if pixels >= FEW => seen,
             Some((seen, _)) => seen.max(independent()),
             None => independent(),
         };
-        if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
+        variance.sqrt()
+    }
+
+    /// The square of the mean root of the pixels' luminance, in the sums' own unit: it is below the mean, and few
+    /// bright pixels do not move it.
+    fn floor(&self) -> f64 {
+        let light = self.light_count();
+        let of_tile = |tile: &Tile| (0..PIXELS).map(|pixel| tile.luminance(pixel, light).max(0.0).sqrt()).sum::<f64>();
+        // One after the other, so that threads cannot show.
+        let of_tiles: Vec<f64> = self.tiles.par_iter().map(of_tile).collect();
+        (of_tiles.iter().sum::<f64>() / self.count()).powi(2)
     }
 
     /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones, and where
@@ -193,8 +217,9 @@ impl Film {
         if self.octave.pixels < MANY { 1.0 } else { self.octave.rate() }
     }
 
-    /// Mean variance of the pixels in the sums' own unit, as the octaves tell it, and how many pixels bear it.
-    fn seen_variance(&self) -> Option<(f64, f64)> {
+    /// Mean variance of the pixels relative to what they are seen beside, as the octaves tell it, and how many pixels
+    /// bear it.
+    fn seen_variance(&self, floor: f64) -> Option<(f64, f64)> {
         let Octave { samples, differences, pixels } = self.octave;
         if differences[0] <= 0.0 || self.has_gaps {
             return None;
@@ -215,7 +240,8 @@ impl Film {
                 Some(factor) => {
                     // From the mean of all to that of those which came after.
                     let times = f64::from(n) / f64::from(n - samples);
-                    let difference = (tile.luminance(pixel, light) - f64::from(tile.octave[pixel])) * times;
+                    let mean = tile.luminance(pixel, light);
+                    let difference = relative((mean - f64::from(tile.octave[pixel])) * times, mean, floor);
                     borne.add(factor * difference * difference);
                 }
                 None => by_octave += of_octave * f64::from(samples) / f64::from(n.max(1)),
