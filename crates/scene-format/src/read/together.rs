@@ -38,7 +38,26 @@ const OPERANDS: &[&[&str]] = &[
     &["b", "right", "tool", "second", "subtrahend", "shape2", "object2", "rhs"],
 ];
 
+const CENTER: &[&str] = &["center", "centre", "position", "pos", "location"];
+const BASE: &[&str] = &["base", "base_center", "bottom", "start", "from"];
+const HEIGHT: &[&str] = &["height", "length", "h"];
+
+const ENDS: [&str; 2] = ["from: (x, y, z), to: (x, y, z)", "from = [x, y, z], to = [x, y, z]"];
+
 const ROWS: &[Row] = &[
+    ("Cylinder", &[CENTER, HEIGHT], &["from", "to"], ENDS, ends_about),
+    ("Cone", &[CENTER, HEIGHT], &["from", "to"], ENDS, ends_about),
+    ("Capsule", &[CENTER, HEIGHT], &["from", "to"], ENDS, ends_about),
+    ("Cylinder", &[BASE, HEIGHT], &["from", "to"], ENDS, ends_above),
+    ("Cone", &[BASE, HEIGHT], &["from", "to"], ENDS, ends_above),
+    ("Capsule", &[BASE, HEIGHT], &["from", "to"], ENDS, ends_above),
+    (
+        "Plane",
+        &[&["y", "height", "level", "elevation"]],
+        &["point"],
+        ["point: (0, y, 0)", "point = [0, y, 0]"],
+        at_height,
+    ),
     (
         "Box",
         &[MIN, MAX],
@@ -167,8 +186,22 @@ fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, [ron, toml], turne
             .to_owned(),
         None => format!("write `{way}`"),
     };
-    let edit = mended.and_then(|replacement| Some(Edit { span: all_of(&found, *item)?, replacement }));
+    let edit = mended.and_then(|mended| match all_of(&found, *item) {
+        Some(span) => Some(Edit { span, replacement: mended }),
+        None => around(&found, *item, &mended),
+    });
     Some(Together { hint: Some(hint), edit, fields })
+}
+
+/// Two fields of a line with others between them, which stay behind what is written for the two.
+fn around(found: &[(Item<'_, '_>, Item<'_, '_>)], item: Item<'_, '_>, mended: &str) -> Option<Edit> {
+    let mut spans: Vec<Span> = found.iter().map(|(key, value)| whole_field(*key, *value)).collect();
+    spans.sort();
+    let [first, last] = spans.as_slice() else { return None };
+    let within = |at: u32| at.checked_sub(item.span().start).map(|at| at as usize);
+    let between = item.lexeme().get(within(first.end)?..within(last.start)?)?.trim_matches([' ', ',']);
+    let plain = !between.is_empty() && !between.contains(['\n', '/', '#']);
+    plain.then(|| Edit { span: Span { end: last.end, ..*first }, replacement: format!("{mended}, {between}") })
 }
 
 /// The place of fields that stand side by side, with nothing but commas and blanks between them.
@@ -226,16 +259,49 @@ fn uv_scale(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
     Some(format!("{}{mapping}", Fields(syntax).name("mapping")))
 }
 
+/// Three numbers as they stand.
+fn point(item: &Item<'_, '_>) -> Option<[f64; 3]> {
+    let all: Vec<f64> = numbers(*item)?.iter().map(|number| decode::number(number)).collect();
+    all.try_into().ok()
+}
+
+/// A reckoned number: what sums of decimal fractions leave over is not meant.
+fn shown(value: f64) -> String {
+    format!("{}", (value * 1e9).round() / 1e9 + 0.0)
+}
+
+/// The two ends of what stands upright.
+fn ends(low: [f64; 3], high: f64, syntax: Syntax) -> String {
+    let name = |field: &str| Fields(syntax).name(field);
+    let end = |y: f64| bracketed(&[low[0], y, low[2]].map(shown), syntax);
+    format!("{}{}, {}{}", name("from"), end(low[1]), name("to"), end(high))
+}
+
+/// Of a middle and a height.
+fn ends_about(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let [middle, height] = values else { return None };
+    let ([x, y, z], height) = (point(middle)?, height.number()?);
+    Some(ends([x, y - height / 2.0, z], y + height / 2.0, syntax))
+}
+
+/// Of a lower end and a height.
+fn ends_above(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let [low, height] = values else { return None };
+    let (low, height) = (point(low)?, height.number()?);
+    Some(ends(low, low[1] + height, syntax))
+}
+
+/// Of a height.
+fn at_height(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let [y] = values else { return None };
+    let y = y.number().map(|_| y.lexeme().to_owned())?;
+    Some(format!("{}{}", Fields(syntax).name("point"), bracketed(&["0".to_owned(), y, "0".to_owned()], syntax)))
+}
+
 /// Two corners.
 fn middle_and_sides(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
     let [low, high] = values else { return None };
-    let point = |item: &Item<'_, '_>| -> Option<[f64; 3]> {
-        let all: Vec<f64> = numbers(*item)?.iter().map(|number| decode::number(number)).collect();
-        all.try_into().ok()
-    };
     let (low, high) = (point(low)?, point(high)?);
-    // What sums of decimal fractions leave over is not meant.
-    let shown = |value: f64| format!("{}", (value * 1e9).round() / 1e9 + 0.0);
     let middle: Vec<String> = low.iter().zip(&high).map(|(low, high)| shown((low + high) / 2.0)).collect();
     let sides: Vec<String> = low.iter().zip(&high).map(|(low, high)| shown((high - low).abs())).collect();
     let name = |field: &str| Fields(syntax).name(field);

@@ -40,6 +40,7 @@ pub(super) fn at_beginning(rest: &str, syntax: Syntax) -> Option<Construct> {
         return None;
     }
     let found = loop_of(rest, syntax).or_else(|| block(rest, syntax)).or_else(|| declaration(rest, syntax));
+    let found = found.or_else(|| made_by_new(rest));
     found.or_else(|| color(rest)).or_else(|| conditional(rest))
 }
 
@@ -78,6 +79,23 @@ pub(super) fn loop_of(rest: &str, syntax: Syntax) -> Option<Construct> {
         message: "there are no loops here: a scene says what is, not what to do".to_owned(),
         expected: "items made by a rule, or copies by `placements`",
         hint: format!("write {form}; in its items \"={index}\" counts from 0"),
+        mended: None,
+    })
+}
+
+/// `new THREE.Mesh(geometry, material)`
+fn made_by_new(rest: &str) -> Option<Construct> {
+    let name = rest.strip_prefix("new ")?.trim_start();
+    let open = rest.len() - name.len() + name.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'))?;
+    if !name.starts_with(|c: char| c.is_ascii_uppercase()) || !rest[open..].starts_with('(') {
+        return None;
+    }
+    Some(Construct {
+        length: closed(rest, open)?,
+        head: open,
+        message: "this is JavaScript: a scene says what is, not what to do".to_owned(),
+        expected: "a kind with its fields, as Sphere(center: (0, 1, 0), radius: 1)",
+        hint: "write the object itself: Box(size: 1, material: Diffuse(albedo: (0.8, 0.2, 0.2)))".to_owned(),
         mended: None,
     })
 }

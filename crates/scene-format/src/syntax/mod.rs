@@ -15,6 +15,7 @@ pub(crate) mod ron;
 mod ron_calls;
 mod ron_extensions;
 pub(crate) mod ron_literal;
+mod ron_misplaced;
 mod ron_names;
 mod ron_scan;
 pub(crate) mod toml;

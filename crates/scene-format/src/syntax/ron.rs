@@ -447,6 +447,7 @@ impl<'p> Parser<'p> {
             fields.then(|| self.field_without_colon()).flatten()
         });
         match (bracket, *shape, named) {
+            (b'[', _, Some(length)) if self.named_item(length) => *shape = Shape::Positional,
             (b'[', _, Some(_)) => {
                 let in_fields = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'(';
                 let behind = self.open.last().is_some_and(|open| open.line < self.line)
@@ -457,7 +458,9 @@ impl<'p> Parser<'p> {
                     self.builder.leaf(Kind::Broken, self.at, self.at);
                     return false;
                 }
-                self.named_in_list();
+                if !self.fields_without_kind() {
+                    self.named_in_list();
+                }
             }
             (b'[', ..) => {
                 *shape = Shape::Positional;

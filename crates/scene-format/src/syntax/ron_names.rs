@@ -99,7 +99,7 @@ impl Parser<'_> {
     }
 
     pub(super) fn value_without_name(&mut self) {
-        if self.list_without_brackets() {
+        if self.list_without_brackets() || self.items_without_list() || self.table_of_toml() {
             return;
         }
         let start = self.at;

@@ -360,13 +360,19 @@ impl Parser<'_> {
                 let is_vector = numbers.split(',').all(|number| number_kind(number.trim()).is_some());
                 if is_vector { b'(' } else { written }
             }
-            b'[' if inner().starts_with('"') => {
+            b'[' if inner().starts_with('"') && !self.is_list_of_things(start) => {
                 let ahead = super::line_ahead(inner(), 1);
                 let named = ahead.find('"').is_some_and(|close| ahead[close + 1..].trim_start().starts_with(':'));
                 if named { b'{' } else { written }
             }
             _ => written,
         }
+    }
+
+    /// Whether what stands before `start` names a list whose items may have names of their own.
+    fn is_list_of_things(&self, start: usize) -> bool {
+        let before = self.text[..start].trim_end().trim_end_matches([':', '=']).trim_end();
+        ["objects", "lights", "items"].iter().any(|list| before.ends_with(list))
     }
 
     /// `Name(` ahead inside the named fields of an item of a list: the bracket of that item was never closed.
@@ -376,16 +382,18 @@ impl Parser<'_> {
         in_list
             && length > 0
             && self.rest()[length..].trim_start().starts_with('(')
-            && !self.open.last().is_some_and(|open| is_closed_ahead(self.rest(), open.bracket))
+            && !self.open.last().is_some_and(|open| is_closed_ahead(self.rest(), open.bracket, OBJECT))
     }
 }
 
-/// Whether the bracket that a text stands in is closed in it, before any other one: whatever begins the text is within.
-fn is_closed_ahead(text: &str, bracket: u8) -> bool {
-    // Objects are no longer, and a file of brackets must not take quadratic time.
-    const LONGEST: usize = 400;
+/// Objects are no longer, and a file of brackets must not take quadratic time.
+const OBJECT: usize = 400;
+
+/// Whether the bracket that a text stands in is closed in its first bytes, so many, before any other one: whatever begins
+/// the text is within.
+pub(super) fn is_closed_ahead(text: &str, bracket: u8, longest: usize) -> bool {
     let (mut open, mut quoted): (Vec<u8>, bool) = (vec![bracket], false);
-    for byte in text.bytes().take(LONGEST) {
+    for byte in text.bytes().take(longest) {
         match byte {
             b'"' => quoted = !quoted,
             b'\n' => quoted = false,

@@ -16,8 +16,8 @@
 //! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
 //! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
 //!
-//! Errors are measured by what they are seen beside: by the pixel's own luminance, or by [`Film::floor`] where that is
-//! darker. By the mean luminance alone, one lamp smaller than a pixel would be nearly all of the noise, and of the mean.
+//! The brightest thousandth of the pixels counts as no brighter than the next ([`Film::brightest`]): a lamp smaller than a
+//! pixel is met by chance, and would be nearly all of the noise, and of the mean.
 //!
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
 //! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
@@ -37,8 +37,8 @@ const MANY: f64 = 24.0;
 pub(super) struct Octave {
     /// The samples of each pixel when it ended, a power of two; 0: there was none.
     pub samples: u32,
-    /// D: mean square difference between the luminance of the two halves of the samples, relative to what it is seen
-    /// beside; at so many samples, at half as many, and at a fourth. Zero where it is not known.
+    /// D: mean square difference between the luminance of the two halves of the samples, in squares of the film's unit;
+    /// at so many samples, at half as many, and at a fourth. Zero where it is not known.
     pub differences: [f64; 3],
     /// m: pixels that bear the first of these.
     pub pixels: f64,
@@ -82,12 +82,6 @@ fn shortened(x: f32) -> f32 {
     f32::from_bits(x.to_bits().saturating_add(0x80) & !0xff)
 }
 
-/// An error of a pixel of this mean relative to what it is seen beside: itself, or the floor where it is darker.
-fn relative(error: f64, mean: f64, floor: f64) -> f64 {
-    let beside = mean.max(floor);
-    if beside > 0.0 { error / beside } else { 0.0 }
-}
-
 /// What pixels bear of a variance.
 #[derive(Clone, Copy, Default)]
 struct Borne {
@@ -122,14 +116,13 @@ impl Film {
             return;
         }
         let Octave { samples: before, differences: [last, half, _], .. } = self.octave;
-        let light = self.light_count();
-        let floor = self.floor();
+        let (light, brightest) = (self.light_count(), self.brightest());
         let put_down = |tile: &mut Tile| {
             let mut borne = Borne::default();
             for pixel in 0..PIXELS {
                 let mean = tile.luminance(pixel, light);
                 // Of the first half and of the second.
-                let difference = relative(mean - f64::from(tile.octave[pixel]), mean, floor);
+                let difference = mean.min(brightest) - f64::from(tile.octave[pixel]).min(brightest);
                 borne.add(4.0 * difference * difference);
                 tile.octave[pixel] = shortened(mean as f32);
             }
@@ -179,36 +172,51 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// Root mean square over the pixels of their standard error, relative to their luminance, or to that of the picture
-    /// where they are darker, the square of the mean root: the noise of the picture as one number. It is seen from how
-    /// much pictures of other samples differ; of parts that were merged it is what independent samples would have,
-    /// which is more. Zero where no pixel has two samples: nobody can tell.
+    /// Root mean square over the pixels of their standard error, relative to the mean luminance, the brightest thousandth
+    /// of them taken for no brighter than the next: the noise of the picture as one number. It is seen from how much
+    /// pictures of other samples differ; of parts that were merged it is what independent samples would have, which is
+    /// more. Zero where no pixel has two samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
-        let floor = self.floor();
+        // In the sums' own unit: squares of the scene's might leave the range of numbers.
+        let brightest = self.brightest();
+        let of_pixel = |(x, y)| luminance(self.radiance(x, y)) / self.unit;
+        let mean = self.pixels().map(|pixel| of_pixel(pixel).min(brightest)).sum::<f64>() / self.count();
         let independent = || {
-            // In the sums' own unit: squares of the scene's might leave the range of numbers.
-            let variance = |(x, y)| {
-                let (variance, mean) = (self.variance(x, y) / self.unit / self.unit, luminance(self.radiance(x, y)));
-                relative(variance.sqrt(), mean / self.unit, floor).powi(2)
-            };
-            self.pixels().map(variance).sum::<f64>() / self.count()
+            let dimmer = self.pixels().filter(|&pixel| of_pixel(pixel) < brightest);
+            dimmer.map(|(x, y)| self.variance(x, y) / self.unit / self.unit).sum::<f64>() / self.count()
         };
-        let variance = match self.seen_variance(floor) {
+        let variance = match self.seen_variance(brightest) {
             Some((seen, pixels)) if pixels >= FEW => seen,
             Some((seen, _)) => seen.max(independent()),
             None => independent(),
         };
-        variance.sqrt()
+        if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// The square of the mean root of the pixels' luminance, in the sums' own unit: it is below the mean, and few
-    /// bright pixels do not move it.
-    fn floor(&self) -> f64 {
+    /// The luminance, in the sums' own unit and to a hundredth of itself, that one pixel of a thousand is brighter than.
+    /// Infinite where there are fewer pixels.
+    fn brightest(&self) -> f64 {
+        // Of numbers that are not negative, the first bits are in their order.
+        const SHIFT: u32 = 16;
+        let allowed = (self.count() / 1000.0) as u64;
+        if allowed == 0 {
+            return f64::INFINITY;
+        }
         let light = self.light_count();
-        let of_tile = |tile: &Tile| (0..PIXELS).map(|pixel| tile.luminance(pixel, light).max(0.0).sqrt()).sum::<f64>();
-        // One after the other, so that threads cannot show.
-        let of_tiles: Vec<f64> = self.tiles.par_iter().map(of_tile).collect();
-        (of_tiles.iter().sum::<f64>() / self.count()).powi(2)
+        let mut counts = vec![0u64; 1 << (32 - SHIFT)];
+        for tile in &self.tiles {
+            for pixel in 0..PIXELS {
+                let luminance = tile.luminance(pixel, light).max(0.0) as f32;
+                counts[(luminance.to_bits() >> SHIFT) as usize] += 1;
+            }
+        }
+        let mut above = 0;
+        let bin = (0..counts.len()).rev().find(|&bin| {
+            above += counts[bin];
+            above > allowed
+        });
+        // The upper end of its bin, in which the next one is.
+        bin.map_or(f64::INFINITY, |bin| f64::from(f32::from_bits(((bin as u32 + 1) << SHIFT) - 1)))
     }
 
     /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones, and where
@@ -217,9 +225,8 @@ impl Film {
         if self.octave.pixels < MANY { 1.0 } else { self.octave.rate() }
     }
 
-    /// Mean variance of the pixels relative to what they are seen beside, as the octaves tell it, and how many pixels
-    /// bear it.
-    fn seen_variance(&self, floor: f64) -> Option<(f64, f64)> {
+    /// Mean variance of the pixels in the sums' own unit, as the octaves tell it, and how many pixels bear it.
+    fn seen_variance(&self, brightest: f64) -> Option<(f64, f64)> {
         let Octave { samples, differences, pixels } = self.octave;
         if differences[0] <= 0.0 || self.has_gaps {
             return None;
@@ -240,8 +247,8 @@ impl Film {
                 Some(factor) => {
                     // From the mean of all to that of those which came after.
                     let times = f64::from(n) / f64::from(n - samples);
-                    let mean = tile.luminance(pixel, light);
-                    let difference = relative((mean - f64::from(tile.octave[pixel])) * times, mean, floor);
+                    let before = f64::from(tile.octave[pixel]).min(brightest);
+                    let difference = (tile.luminance(pixel, light).min(brightest) - before) * times;
                     borne.add(factor * difference * difference);
                 }
                 None => by_octave += of_octave * f64::from(samples) / f64::from(n.max(1)),

@@ -34,21 +34,26 @@ fn luminance([r, g, b]: [f64; 3]) -> f64 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
-/// Root mean square error of the pixels' luminance by what pictures with other seeds differ by, relative to itself or,
-/// where a pixel is darker, to the square of the mean root of all.
+/// Root mean square error of the luminance relative to its mean, by what pictures with other seeds differ by; the
+/// brightest thousandth of the pixels is no brighter than the next.
 fn error(films: &[Film]) -> f64 {
     let n = films.len() as f64;
     let Crop { x, y, width, height } = films[0].crop();
-    let mut pixels = Vec::new();
-    for (x, y) in (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y))) {
-        let values: Vec<f64> = films.iter().map(|film| luminance(film.radiance(x, y))).collect();
-        let mean = values.iter().sum::<f64>() / n;
-        pixels.push((mean, values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0)));
+    let places = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
+    let pixels: Vec<Vec<f64>> =
+        places.map(|(x, y)| films.iter().map(|film| luminance(film.radiance(x, y))).collect()).collect();
+    let mut means: Vec<f64> = pixels.iter().map(|values| values.iter().sum::<f64>() / n).collect();
+    means.sort_by(|a, b| b.total_cmp(a));
+    let brightest = if pixels.len() < 1000 { f64::INFINITY } else { means[pixels.len() / 1000] };
+    let (mut squares, mut mean) = (0.0, 0.0);
+    for values in &pixels {
+        let values: Vec<f64> = values.iter().map(|value| value.min(brightest)).collect();
+        let of_pixel = values.iter().sum::<f64>() / n;
+        squares += values.iter().map(|value| (value - of_pixel).powi(2)).sum::<f64>() / (n - 1.0);
+        mean += of_pixel;
     }
     let count = pixels.len() as f64;
-    let floor = (pixels.iter().map(|(mean, _)| mean.sqrt()).sum::<f64>() / count).powi(2);
-    let relative = |(mean, variance): &(f64, f64)| variance / mean.max(floor).powi(2);
-    (pixels.iter().map(relative).sum::<f64>() / count).sqrt()
+    (squares / count).sqrt() / (mean / count)
 }
 
 /// A lamp smaller than a pixel is bright where it is met, and met by chance: it is one pixel that is noisy, not all.
@@ -64,8 +69,8 @@ fn a_lamp_smaller_than_a_pixel_is_not_all_of_the_noise() {
         compile(&loaded.scene).expect("right")
     };
     let [seen, hidden] = [true, false].map(|visible| film(&scene(visible), 64, 0).relative_noise());
-    // One pixel of 19200 that errs by itself, and by no more, is 0.7 % by itself.
-    assert!(seen * seen <= hidden * hidden + 4.0 / 19200.0, "{seen} with the lamp in view, {hidden} without");
+    // The lamp's pixel counts for no more than others do.
+    assert!(seen <= 1.1 * hidden, "{seen} with the lamp in view, {hidden} without");
 }
 
 /// Behind a power of two, at one, and between two of them. The error of 4096 pixels is known to a few percent from four
