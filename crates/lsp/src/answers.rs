@@ -83,7 +83,28 @@ fn markdown(value: String) -> MarkupContent {
 
 /// A snippet without its signs, for editors that do not know them.
 fn plain(snippet: &str) -> String {
-    snippet.replace("$0", "").replace("\\$", "$").replace("\\}", "}").replace("\\\\", "\\")
+    let mut out = String::new();
+    let mut signs = snippet.chars().peekable();
+    while let Some(sign) = signs.next() {
+        match sign {
+            '\\' => out.extend(signs.next()),
+            '$' => {
+                let braces = signs.next_if_eq(&'{').is_some();
+                while signs.next_if(char::is_ascii_digit).is_some() {}
+                let _ = signs.next_if(|sign| braces && *sign == ':');
+                // What stands there at first goes up to the brace.
+                while let Some(sign) = signs.next_if(|_| braces) {
+                    match sign {
+                        '}' => break,
+                        '\\' => out.extend(signs.next()),
+                        sign => out.push(sign),
+                    }
+                }
+            }
+            sign => out.push(sign),
+        }
+    }
+    out
 }
 
 fn completion(documents: &Documents, params: CompletionParams) -> Option<CompletionResponse> {
@@ -319,8 +340,7 @@ fn actions(documents: &Documents, params: CodeActionParams) -> Option<Vec<CodeAc
 
 /// A material of the name that there is none of.
 fn material_added(document: &Document, fault: &Diagnostic) -> Option<CodeActionOrCommand> {
-    let written = document.text.get(fault.span.start as usize..fault.span.end as usize)?;
-    let name = written.trim_matches('"');
+    let name = &analysis::name_meant(&document.text, document.syntax, fault.span.start as usize + 1)?;
     let added = analysis::material_to_add(&document.text, document.syntax, name)?;
     Some(CodeActionOrCommand::CodeAction(CodeAction {
         title: format!("Add a material \"{name}\""),
@@ -351,4 +371,19 @@ fn formatting(documents: &Documents, params: DocumentFormattingParams) -> Result
     }
     let range = document.lines.range(&document.text, 0..document.text.len());
     Ok(Some(vec![TextEdit { range, new_text: tidy }]))
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn snippets_without_their_signs() {
+        for (snippet, plain) in [
+            ("Sphere(center: ($1), radius: $2)", "Sphere(center: (), radius: )"),
+            ("fov: ${1:40}, up: ${12:(0, 1, 0)}$0", "fov: 40, up: (0, 1, 0)"),
+            ("\"a\\$0b\\}\\\\\"", "\"a$0b}\\\""),
+            ("{ ${1:a\\}b} }", "{ a}b }"),
+        ] {
+            assert_eq!(super::plain(snippet), plain);
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Edits that diagnostics offer, applied: those that make a text better, and no others.
 
+use crate::codes::{self, Code};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Severity};
 use crate::load::{LoadError, load_str};
 use crate::render::apply_edits;
@@ -29,12 +30,13 @@ pub fn mend(name: &str, text: &str, syntax: Syntax, base_dir: &Path) -> Mended {
             Err(LoadError::Io { .. }) => Diagnostics::new(),
         }
     };
+    let before = text;
     let mut text = text.to_owned();
     let mut faults = look(&text);
-    let first = faults.len();
+    let first = faults.clone();
     loop {
         let edits: Vec<Edit> =
-            faults.iter().filter_map(|fault| fault.edit.clone()).filter(|edit| edit.span.source == 0).collect();
+            faults.iter().filter(|fault| is_certain(fault)).filter_map(|fault| fault.edit.clone()).collect();
         let singly = edits.iter().take(if edits.len() > 1 { MOST_TRIED } else { 0 }).map(std::slice::from_ref);
         let better = std::iter::once(edits.as_slice()).chain(singly).find_map(|edits| {
             let next = apply_edits(&text, edits);
@@ -43,9 +45,50 @@ pub fn mend(name: &str, text: &str, syntax: Syntax, base_dir: &Path) -> Mended {
         });
         match better {
             Some(better) => (text, faults) = better,
-            None => return Mended { text, faults: first.saturating_sub(faults.len()) },
+            None => break,
         }
     }
+    if let Some(kept) = without_new_errors((before, &first), (&text, &faults)) {
+        let left = look(&kept);
+        if kept == before || count(&left) < count(&first) {
+            (text, faults) = (kept, left);
+        }
+    }
+    Mended { text, faults: first.len().saturating_sub(faults.len()) }
+}
+
+/// Whether an edit is what must have been meant. Of names that a person has given nobody knows which one was.
+fn is_certain(fault: &Diagnostic) -> bool {
+    let named = [codes::UNKNOWN_MATERIAL, codes::UNKNOWN_NAME, codes::UNKNOWN_CAMERA, codes::UNKNOWN_MASK];
+    let by_likeness = |edit: &Edit| named.contains(&fault.code) && edit.replacement.starts_with('"');
+    fault.edit.as_ref().is_some_and(|edit| edit.span.source == 0 && !by_likeness(edit))
+}
+
+/// A mended text, of the same number of lines, with those lines as they were that have got an error of another kind:
+/// there the edits were no help. `None`: there are none.
+fn without_new_errors(before: (&str, &[Diagnostic]), after: (&str, &[Diagnostic])) -> Option<String> {
+    let (old, new): (Vec<&str>, Vec<&str>) =
+        (before.0.split_inclusive('\n').collect(), after.0.split_inclusive('\n').collect());
+    if old.len() != new.len() {
+        return None;
+    }
+    // What is wrong, and with what.
+    let of = |text: &str, faults: &[Diagnostic]| -> Vec<(usize, (Code, String, String))> {
+        let errors = faults.iter().filter(|fault| fault.severity == Severity::Error && fault.span.source == 0);
+        let place = |fault: &Diagnostic| {
+            let (start, end) = (fault.span.start as usize, fault.span.end as usize);
+            let line = text.get(..start)?.matches('\n').count();
+            Some((line, (fault.code, fault.message.clone(), text.get(start..end)?.to_owned())))
+        };
+        errors.filter_map(place).collect()
+    };
+    let known: Vec<_> = of(before.0, before.1).into_iter().map(|(_, fault)| fault).collect();
+    let worse: Vec<usize> =
+        of(after.0, after.1).into_iter().filter(|(_, fault)| !known.contains(fault)).map(|(line, _)| line).collect();
+    let is_worse = |line: usize| old[line] != new[line] && worse.contains(&line);
+    (0..old.len()).any(is_worse).then(|| {
+        (0..old.len()).map(|line| if is_worse(line) { old[line] } else { new[line] }).collect::<Vec<_>>().concat()
+    })
 }
 
 /// Errors first, then warnings.

@@ -21,7 +21,9 @@ pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         }
         let folded = fold(candidate);
         let distance = strsim::osa_distance(&plain, &folded);
-        if distance > MAX_DISTANCE || distance >= folded.chars().count().max(2) {
+        // Two letters are not enough to know a word by that differs in two.
+        let short = distance > 1 && plain.chars().count() < 3;
+        if short || distance > MAX_DISTANCE || distance >= folded.chars().count().max(2) {
             continue;
         }
         let rank = Rank {

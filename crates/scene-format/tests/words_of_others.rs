@@ -43,7 +43,7 @@ fn kinds_of_objects() {
         ("Instance(of: 1)", "`placements`"),
         ("Boolean(a: 1)", "Difference(objects: [..])"),
         ("Merge(objects: [Box(size: 1)])", "did you mean `Union`?"),
-        ("Plane(y: 0)", "`point: (0, 1, 0)`"),
+        ("Plane(y: 0)", "`point: (0, 0, 0)`"),
         ("Plane(size: 20)", "`Rectangle`, with a `size`"),
         ("Ground(normal: (0, 1, 0))", "did you mean `Plane`?"),
         ("Plane(position: (0, 1, 0))", "did you mean `point`?"),

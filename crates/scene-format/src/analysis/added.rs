@@ -1,7 +1,6 @@
 //! What is written into a scene for a name that it lacks.
 
 use crate::diagnostic::{Edit, Span};
-use crate::form::Form;
 use crate::print;
 use crate::syntax::{Sink, Syntax, parse};
 use crate::tree::{Item, Kind};
@@ -11,7 +10,7 @@ use crate::tree::{Item, Kind};
 pub fn material_to_add(text: &str, syntax: Syntax, name: &str) -> Option<Edit> {
     let tree = parse(text, syntax, &mut Sink::default());
     let field = |name: &str| tree.root()?.fields().find(|(key, _)| key.text() == name);
-    let quoted = print::value(&Form::Text(name.to_owned()), syntax);
+    let quoted = print::text(name, syntax);
     let entry = match syntax {
         Syntax::Ron => format!("{quoted}: Diffuse(albedo: 0.5)"),
         Syntax::Toml => format!("{} = {{ Diffuse = {{ albedo = 0.5 }} }}", print::toml_key(name)),
@@ -44,8 +43,13 @@ fn among(text: &str, syntax: Syntax, materials: &Item<'_, '_>, entry: &str) -> O
         };
         return Some((start + 1, inserted));
     }
+    // `materials.red.Diffuse.albedo = 1` at the top.
+    if syntax == Syntax::Toml && lexeme == "materials" {
+        let line = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        return Some((line, format!("materials.{entry}\n")));
+    }
     // A table of TOML with its header, or one that other headers imply.
-    if lexeme == "[materials]" {
+    if lexeme.trim_matches(['[', ']', ' ', '\t']) == "materials" {
         return Some((start + lexeme.len(), format!("\n{entry}")));
     }
     let header = text[..start].rfind('\n').map_or(0, |newline| newline + 1);

@@ -195,6 +195,12 @@ fn place(field: &FieldDef, syntax: Syntax, number: usize) -> String {
     }
 }
 
+/// A name as it is written, between quotes or within those that are there.
+fn named(name: &str, quoted: bool, syntax: Syntax) -> String {
+    let written = crate::print::text(name, syntax);
+    if quoted { written[1..written.len() - 1].to_owned() } else { written }
+}
+
 fn escaped(text: &str) -> String {
     text.replace('\\', "\\\\").replace('$', "\\$").replace('}', "\\}")
 }
@@ -227,7 +233,7 @@ fn value(
     }
     let kind = kind.resolved();
     if matches!(way.steps.as_slice(), [.., Step::Key(key), Step::Item] if key == "masks") {
-        let written = |name: &str| if quoted { name.to_owned() } else { format!("\"{name}\"") };
+        let written = |name: &str| named(name, quoted, syntax);
         out.items.extend(names::defined(text, syntax).things.iter().map(|name| Completion {
             label: name.clone(),
             kind: CompletionKind::Name,
@@ -250,7 +256,7 @@ fn value(
             if let Some(of @ ("material" | "camera")) = of {
                 let defined = names::defined(text, syntax);
                 let names = if of == "camera" { defined.cameras } else { defined.materials };
-                let written = |name: &str| if quoted { name.to_owned() } else { format!("\"{name}\"") };
+                let written = |name: &str| named(name, quoted, syntax);
                 out.items.extend(names.iter().map(|name| Completion {
                     label: name.clone(),
                     kind: CompletionKind::Name,
@@ -265,7 +271,7 @@ fn value(
                     kind: CompletionKind::Name,
                     detail: "a texture of this scene".to_owned(),
                     documentation: String::new(),
-                    snippet: escaped(&if quoted { name.to_owned() } else { format!("\"{name}\"") }),
+                    snippet: escaped(&named(name, quoted, syntax)),
                 }));
             }
             all.iter()

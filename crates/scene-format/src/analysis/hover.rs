@@ -49,7 +49,7 @@ pub fn hover(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
             found = Some(Hover { range: range(span), markdown });
         }
     });
-    found.or_else(|| of_name(&tree, text, byte)).or(valued)
+    found.or_else(|| of_name(&tree, text, syntax, byte)).or(valued)
 }
 
 /// The value without brackets that stands at a byte: a number of a vector, too, but not what has a name of its own.
@@ -64,8 +64,8 @@ fn leaf<'t, 's>(item: Item<'t, 's>, byte: usize) -> Option<Item<'t, 's>> {
 }
 
 /// What a name stands for, or what a word of an expression means.
-fn of_name(tree: &Tree<'_>, text: &str, byte: usize) -> Option<Hover> {
-    if let Some(names::Named { name, range, value }) = names::named_at(tree, text, byte) {
+fn of_name(tree: &Tree<'_>, text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
+    if let Some(names::Named { name, range, value }) = names::named_at(tree, text, syntax, byte) {
         let means = value.map_or("counts from 0: the index of a `Repeat`".to_owned(), |value| format!("`{value}`"));
         return Some(Hover { range, markdown: format!("**{name}**: {means}") });
     }

@@ -21,7 +21,7 @@ pub use added::material_to_add;
 pub use colors::{ColorPlace, color_texts, colors};
 pub use complete::{Completion, CompletionKind, Completions, complete};
 pub use hover::{Hover, hover};
-pub use names::{definition, file_at, name_at, occurrences, rename};
+pub use names::{definition, file_at, name_at, name_meant, occurrences, rename};
 pub use symbols::{Symbol, SymbolKind, symbols, words_at_top};
 
 #[cfg(test)]

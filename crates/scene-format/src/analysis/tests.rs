@@ -183,6 +183,8 @@ fn a_material_is_added_among_others_or_before_the_objects() {
         ("background = 1\nobjects = [{ OBJECT }]\n", toml, Toml),
         ("background = 1\n[materials]\na = { Mirror = {} }\n[[objects]]\nOBJECT\n", toml, Toml),
         ("background = 1\n[materials.a.Mirror]\nreflectance = 1\n[[objects]]\nOBJECT\n", toml, Toml),
+        ("background = 1\n[ materials ]\na = { Mirror = {} }\n[[objects]]\nOBJECT\n", toml, Toml),
+        ("background = 1\nmaterials.a.Diffuse.albedo = 1\n[[objects]]\nOBJECT\n", toml, Toml),
         ("{ \"background\": 1, \"objects\": [OBJECT] }", json, Json),
         (
             "{\n  \"background\": 1,\n  \"materials\": {\n    \"a\": { \"Mirror\": {} }\n  },\n  \"objects\": [OBJECT] }",
@@ -425,4 +427,72 @@ fn masks_are_of_names_that_things_have() {
     let edits = rename(&text, Ron, mask, "bulb").expect("a free name");
     assert_eq!(edits.iter().map(|edit| edit.span.start as usize).collect::<Vec<_>>(), [mask, lamp]);
     assert!(rename(&text, Ron, lamp, "cup").is_err());
+}
+
+/// The text after a renaming at its cursor, or why there is none.
+fn renamed(text: &str, syntax: Syntax, name: &str) -> Result<String, String> {
+    let (text, at) = cursor(text);
+    rename(&text, syntax, at, name).map(|edits| apply_edits(&text, &edits))
+}
+
+#[test]
+fn a_table_of_toml_is_renamed_wherever_it_goes_on() {
+    let text = "[materials.r|ed.Diffuse.albedo.Noise]\na = 0.1\n[materials . \"red\".Diffuse.albedo.Noise.mapping.Object]\n\
+                scale = 3\n[[objects]]\nSphere = { center = [0, 0, 0], radius = 1, material = 'red' }\n[materials]\n\
+                red.Diffuse.x = 1\nblue = \"red\"\n";
+    let after = renamed(text, Toml, "crimson").expect("a name");
+    assert_eq!(after.matches("crimson").count(), 4, "{after}");
+    assert!(after.contains("blue = \"red\""), "{after}");
+}
+
+#[test]
+fn names_of_included_files_are_theirs() {
+    let text = "Scene(vars: {\"hei|ght\": 0.7}, materials: {\"oak\": Mirror()}, objects: [Include(file: \"chair.ron\", \
+                vars: {\"height\": \"=height\"}, materials: {\"seat\": \"oak\"})])";
+    let after = renamed(text, Ron, "hh").expect("a name");
+    assert!(after.contains("vars: {\"hh\": 0.7}") && after.contains("vars: {\"height\": \"=hh\"}"), "{after}");
+    let text = text.replace("hei|ght", "height").replace("{\"oak", "{\"o|ak");
+    let after = renamed(&text, Ron, "fir").expect("a name");
+    assert!(after.contains("{\"fir\": Mirror()}") && after.contains("{\"seat\": \"fir\"}"), "{after}");
+}
+
+#[test]
+fn names_within_a_repetition_are_known_there() {
+    let text = "Scene(vars: {\"k\": 3}, objects: [Repeat(count: 2, index: \"k\", items: [Sphere(radius: \"=k\")]), \
+                Sphere(radius: \"=|k\")])";
+    let after = renamed(text, Ron, "n").expect("a name");
+    assert!(after.contains("{\"n\": 3}") && after.contains("index: \"k\"") && after.ends_with("\"=n\")])"), "{after}");
+    assert_eq!(after.matches("=k").count(), 1, "{after}");
+    let within = text.replace("=|k", "=k").replacen("=k", "=|k", 1);
+    let after = renamed(&within, Ron, "n").expect("a name");
+    assert!(after.contains("{\"k\": 3}") && after.contains("index: \"n\"") && after.ends_with("\"=k\")])"), "{after}");
+}
+
+#[test]
+fn what_cannot_be_renamed_is_told() {
+    for (text, syntax, name, why) in [
+        ("Scene(objects: [Repeat(count: 2, items: [Box(size: \"=|i\")])])", Ron, "n", "write `index`"),
+        ("Scene(include: [\"lib.ron\"], objects: [Box(material: \"o|ak\")])", Ron, "fir", "not given in this file"),
+        ("materials.'r|ed'.Mirror = {}\n", Toml, "it's", "single quotes"),
+        ("Scene(textures: {\"a|b\": Noise()})", Ron, "#ffffff", "expression or a colour"),
+        ("Scene(textures: {\"a|b\": Noise()})", Ron, "=1/2", "expression or a colour"),
+    ] {
+        let told = renamed(text, syntax, name).expect_err(text);
+        assert!(told.contains(why), "{text}: {told}");
+    }
+    let raw = "Scene(materials: {\"red\": Mirror()}, objects: [Box(material: r#\"re|d\"#)])";
+    assert!(renamed(raw, Ron, "blue").expect("a name").contains("material: r#\"blue\"#"));
+    // A text that begins with `=` where a name is read is no expression.
+    let text =
+        "Scene(vars: {\"|h\": 1}, materials: {\"=h\": Mirror()}, objects: [Box(size: \"=h\", material: \"=h\")])";
+    let after = renamed(text, Ron, "n").expect("a name");
+    assert!(after.contains("size: \"=n\", material: \"=h\""), "{after}");
+}
+
+#[test]
+fn names_are_completed_as_they_are_written() {
+    let text = "Scene(materials: {\"a\\\\\\\"b\": Mirror()}, objects: [Sphere(material: |";
+    let (text, at) = cursor(text);
+    let item = complete(&text, Ron, at).items.into_iter().find(|item| item.label == "a\\\"b").expect("it is offered");
+    assert_eq!(item.snippet, "\"a\\\\\\\\\\\\\"b\"");
 }

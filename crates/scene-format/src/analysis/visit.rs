@@ -1,6 +1,7 @@
 //! A walk over a scene's tree with the schema beside it.
 
 use crate::desc::Scene;
+use crate::diagnostic::Span;
 use crate::read::{PICK, REPEAT, is_expression, pick_body, repeat_body};
 use crate::schema::{Content, FieldDef, StructDef, Type, VariantDef, fits};
 use crate::syntax::{Sink, Syntax};
@@ -18,11 +19,15 @@ pub(super) struct Visit<'t, 's> {
     /// The name in a map.
     pub name: Option<Item<'t, 's>>,
     /// The kind that it is, and where that word stands.
-    pub variant: Option<(&'static VariantDef, crate::diagnostic::Span)>,
+    pub variant: Option<(&'static VariantDef, Span)>,
     /// The field of the scene that it is in: `objects`.
     pub section: &'static str,
     /// How deep it stands.
     pub depth: usize,
+    /// The field of the `Include` that it is in: names there are those of the included file.
+    pub included: Option<&'static str>,
+    /// The innermost `Repeat` that it is in, where that is in one piece: names that it gives are known there alone.
+    pub scope: Option<Span>,
 }
 
 /// The tree of a text, whatever is wrong with it.
@@ -33,7 +38,7 @@ pub(super) fn tree(text: &str, syntax: Syntax) -> Tree<'_> {
 /// Calls `meet` for every value that the schema knows, parents first.
 pub(super) fn visit<'t, 's>(tree: &'t Tree<'s>, meet: &mut dyn FnMut(&Visit<'t, 's>)) {
     let Some(root) = tree.root() else { return };
-    let at = At { kind: Scene::TYPE, field: None, name: None, section: "", depth: 0 };
+    let at = At { kind: Scene::TYPE, field: None, name: None, section: "", depth: 0, included: None, scope: None };
     walk(root, at, meet);
 }
 
@@ -44,12 +49,14 @@ struct At<'t, 's> {
     name: Option<Item<'t, 's>>,
     section: &'static str,
     depth: usize,
+    included: Option<&'static str>,
+    scope: Option<Span>,
 }
 
 // Long: one arm for every type of the language.
 fn walk<'t, 's>(item: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<'t, 's>)) {
     let mut variant = None;
-    let At { kind, field, name, section, depth } = at;
+    let At { kind, field, name, section, depth, included, scope } = at;
     if let Some(body) = pick_body(item) {
         return pick(body, at, meet);
     }
@@ -79,11 +86,11 @@ fn walk<'t, 's>(item: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<
         }
         body = inner;
     }
-    meet(&Visit { item, kind, field, name, variant, section, depth });
+    meet(&Visit { item, kind, field, name, variant, section, depth, included, scope });
     if is_expression(item) {
         return;
     }
-    let inner = |kind| At { kind, field: None, name: None, section, depth: depth + 1 };
+    let inner = |kind| At { kind, field: None, name: None, section, depth: depth + 1, included, scope };
     let def: Option<&'static StructDef> = match (kind, content) {
         (Type::Struct(def), _) => Some(def),
         (Type::Enum(_), Some(Content::Struct(def))) => Some(def),
@@ -118,7 +125,8 @@ fn walk<'t, 's>(item: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<
             for (key, value) in body.fields() {
                 let Some(field) = def.field(&key.text()) else { continue };
                 let section = if top { field.name } else { section };
-                walk(value, At { field: Some((field, key)), section, ..inner(field.kind) }, meet);
+                let included = if def.name == "Include" { Some(field.name) } else { included };
+                walk(value, At { field: Some((field, key)), section, included, ..inner(field.kind) }, meet);
             }
         }
         // Components, each of which may be an expression.
@@ -150,6 +158,9 @@ fn pick<'t, 's>(body: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<
 }
 
 fn repeat<'t, 's>(body: Item<'t, 's>, kind: Type, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<'t, 's>)) {
+    // A table of TOML is its header alone.
+    let whole = body.span();
+    let at = At { scope: if body.lexeme().starts_with('[') { at.scope } else { Some(whole) }, ..at };
     for (key, value) in body.fields() {
         let Some(field) = REPEAT.field(&key.text()) else { continue };
         if field.name != "items" {

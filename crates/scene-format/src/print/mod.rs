@@ -32,6 +32,11 @@ pub(crate) fn value(form: &Form, syntax: Syntax) -> String {
     }
 }
 
+/// A text between quotes, as a syntax writes it.
+pub(crate) fn text(text: &str, syntax: Syntax) -> String {
+    value(&Form::Text(text.to_owned()), syntax)
+}
+
 /// A number as all syntaxes read it: the shortest digits that give the same value.
 pub(crate) fn number(value: f64) -> String {
     let size = value.abs();

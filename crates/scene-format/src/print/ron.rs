@@ -205,7 +205,7 @@ fn block(out: &mut String, open: &str, entries: &[Entry], close: &str, depth: us
     out.push_str(open);
     let plain = |(index, entry): (usize, &Entry)| {
         let before = if index == 0 { after_blank(&entry.before) } else { &entry.before };
-        before.is_empty() && entry.after.is_none() && entry.value != Form::Absent
+        before.is_empty() && entry.after.is_none() && entry.value != Form::Absent && !has_comments(&entry.value)
     };
     let fills = entries.first().is_some_and(|first| first.before.iter().any(|line| line == FILLED));
     let mark = out.len();
@@ -290,7 +290,7 @@ fn inline(out: &mut String, form: &Form, limit: usize) -> bool {
 fn entries_inline(out: &mut String, open: &str, entries: &[Entry], close: &str, limit: usize) -> bool {
     let (open, close) = if open == "{" && !entries.is_empty() { ("{ ", " }") } else { (open, close) };
     out.push_str(open);
-    for (index, entry) in entries.iter().enumerate() {
+    for (index, entry) in entries.iter().filter(|entry| entry.value != Form::Absent).enumerate() {
         if index > 0 {
             out.push_str(", ");
         }

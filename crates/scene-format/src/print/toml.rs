@@ -84,7 +84,8 @@ fn body(out: &mut String, path: &str, form: &Form) {
             };
             let first = entries.iter().position(|entry| tabled(entry) && !fits(entry)).unwrap_or(entries.len());
             let is_line = |(k, entry): &(usize, &Entry)| *k < first || !tabled(entry);
-            let (short, long): (Vec<_>, Vec<_>) = entries.iter().enumerate().partition(is_line);
+            let there = entries.iter().enumerate().filter(|(_, entry)| entry.value != Form::Absent);
+            let (short, long): (Vec<_>, Vec<_>) = there.partition(is_line);
             short.iter().for_each(|(_, entry)| line(out, entry));
             for (_, entry) in long {
                 let Form::Variant { name, content: Some(content) } = &entry.value else { continue };
@@ -92,6 +93,8 @@ fn body(out: &mut String, path: &str, form: &Form) {
                 blank(out);
                 sub_table(out, &path, entry, content);
             }
+            // What stands below the last of them.
+            entries.iter().filter(|entry| entry.value == Form::Absent).for_each(|entry| line(out, entry));
         }
         Form::Variant { name, content: Some(content) } => {
             let entry = Entry::new(*name, (**content).clone());

@@ -207,7 +207,7 @@ impl Reader<'_> {
             count => format!("one of the {count} names in `cameras`"),
         });
         let nearest = suggest::nearest(&name.value, known.iter().copied());
-        fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
+        fault.did_you_mean(nearest, |word| crate::print::text(word, crate::Syntax::Ron));
         self.path = vec![Step::Field("camera")];
         self.report(fault);
         self.path.clear();

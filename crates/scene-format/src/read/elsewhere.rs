@@ -348,7 +348,7 @@ impl Reader<'_> {
                 .hint(format!("write \"{meant}\""));
         match &known {
             Some(known) => {
-                fault.edit = Some(Edit { span: item.span(), replacement: format!("\"{}\"", known.escape_default()) });
+                fault.edit = Some(Edit { span: item.span(), replacement: crate::print::text(known, item.syntax()) });
                 self.materials.use_name(known);
             }
             None if !self.materials.damaged => fault.hint += ", and add it to `materials`",

@@ -299,7 +299,7 @@ impl Reader<'_> {
             count => format!("one of its {count} {what}s"),
         });
         let nearest = suggest::nearest(&name.value, known.iter().copied());
-        fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
+        fault.did_you_mean(nearest, |word| crate::print::text(word, crate::Syntax::Ron));
         self.report(fault);
     }
 

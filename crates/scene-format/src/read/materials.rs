@@ -284,7 +284,7 @@ impl Reader<'_> {
             count => format!("one of the {count} names in `materials`"),
         };
         let nearest = suggest::nearest(name, known.iter().copied());
-        fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
+        fault.did_you_mean(nearest, |word| crate::print::text(word, item.syntax()));
         if nearest.is_none() && self.knows_texture(name) {
             let replacement = match item.syntax() {
                 Syntax::Ron => format!("Diffuse(albedo: {})", item.lexeme()),

@@ -366,7 +366,7 @@ impl Reader<'_> {
         let known = matches!(item.kind(), Kind::Word | Kind::Char).then(|| self.named.find(&item.text())).flatten();
         let Some(k) = known else { return false };
         self.named.list[k].used = true;
-        let mended = format!("\"{}\"", item.text().escape_default());
+        let mended = crate::print::text(&item.text(), item.syntax());
         let message = "names of textures stand between double quotes";
         let mut fault = Diagnostic::error(codes::WORD_NOT_QUOTED, item.span(), message)
             .expected("the name of a texture between quotes, or a colour or texture written here")
@@ -404,7 +404,7 @@ impl Reader<'_> {
             1..=8 if few => format!("a colour, or a name from `textures`: {}", suggest::list(&known)),
             count => format!("a colour, or one of the {count} names in `textures`"),
         };
-        fault.did_you_mean(nearest, |word| format!("\"{}\"", word.escape_default()));
+        fault.did_you_mean(nearest, |word| crate::print::text(word, item.syntax()));
         if nearest.is_none()
             && let Some(mended) = super::colors_elsewhere::numbers_in_text(item, 3)
         {

@@ -375,7 +375,7 @@ impl Reader<'_> {
     pub(crate) fn text<'s>(&mut self, item: Item<'_, 's>, at: &'static FieldDef) -> Option<Cow<'s, str>> {
         if item.kind() != Kind::Text {
             let word = (matches!(item.kind(), Kind::Word | Kind::Char) && !item.is_null())
-                .then(|| format!("\"{}\"", item.text().escape_default()));
+                .then(|| crate::print::text(&item.text(), item.syntax()));
             return self.wrong_kind(item, at.noun, &expected_for(at, item), word);
         }
         let text = item.text();

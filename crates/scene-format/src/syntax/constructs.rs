@@ -87,7 +87,10 @@ pub(super) fn loop_of(rest: &str, syntax: Syntax) -> Option<Construct> {
 fn made_by_new(rest: &str) -> Option<Construct> {
     let name = rest.strip_prefix("new ")?.trim_start();
     let open = rest.len() - name.len() + name.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'))?;
-    if !name.starts_with(|c: char| c.is_ascii_uppercase()) || !rest[open..].starts_with('(') {
+    // Vectors and colours are told with theirs; a kind of ours needs `new` left out.
+    let class = rest[..open].rsplit_once('.').map(|(_, class)| class)?;
+    let value = ["Vector", "Color", "Euler", "Quaternion"].iter().any(|head| class.starts_with(head));
+    if value || !name.starts_with(|c: char| c.is_ascii_uppercase()) || !rest[open..].starts_with('(') {
         return None;
     }
     Some(Construct {

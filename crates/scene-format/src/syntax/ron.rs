@@ -182,7 +182,7 @@ impl<'p> Parser<'p> {
                     "true" | "false" => self.builder.leaf(Kind::Bool, start, self.at),
                     "inf" | "NaN" | "nan" | "infinity" => self.builder.leaf(Kind::Float, start, self.at),
                     _ => {
-                        let resume = self.at;
+                        let (resume, comments) = (self.at, self.comments.len());
                         self.trivia();
                         let same_line = resume >= self.line;
                         let kind = self.text[start..].starts_with(|c: char| c.is_uppercase());
@@ -192,6 +192,7 @@ impl<'p> Parser<'p> {
                             self.bracket(start, bracket);
                         } else {
                             self.at = resume;
+                            self.comments.truncate(comments);
                             self.word(start);
                         }
                     }
@@ -220,7 +221,10 @@ impl<'p> Parser<'p> {
         if let Some(length) = self.name_of_words(start) {
             return self.text_without_quotes(start, start + length);
         }
-        if !matches!(self.peek(), Some(b'.' | b'"' | b'/' | b'\\' | b'-')) || self.rest().starts_with("//") {
+        if !matches!(self.peek(), Some(b'.' | b'"' | b'/' | b'\\' | b'-'))
+            || self.rest().starts_with("//")
+            || self.rest().starts_with("/*")
+        {
             return self.builder.leaf(Kind::Word, start, end);
         }
         let rest = &self.text[start..];
@@ -447,7 +451,12 @@ impl<'p> Parser<'p> {
             fields.then(|| self.field_without_colon()).flatten()
         });
         match (bracket, *shape, named) {
-            (b'[', _, Some(length)) if self.named_item(length) => *shape = Shape::Positional,
+            (b'[', _, Some(length))
+                if brackets::fields_behind(self.text, self.at).is_none()
+                    && (self.named_item(length) || self.trust == Trust::Indentation && self.fields_without_kind()) =>
+            {
+                *shape = Shape::Positional;
+            }
             (b'[', _, Some(_)) => {
                 let in_fields = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'(';
                 let behind = self.open.last().is_some_and(|open| open.line < self.line)
@@ -458,9 +467,7 @@ impl<'p> Parser<'p> {
                     self.builder.leaf(Kind::Broken, self.at, self.at);
                     return false;
                 }
-                if !self.fields_without_kind() {
-                    self.named_in_list();
-                }
+                self.named_in_list();
             }
             (b'[', ..) => {
                 *shape = Shape::Positional;

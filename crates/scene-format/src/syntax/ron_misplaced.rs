@@ -79,18 +79,13 @@ impl Parser<'_> {
 
     /// `radius: 1, material: ..),` among the items of a list: the fields of a kind that is not there.
     pub(super) fn fields_without_kind(&mut self) -> bool {
-        let line = super::line_ahead(self.text, self.at);
-        let closes = is_closed_ahead(line, b'(', LONGEST);
-        if !closes {
+        let start = self.at;
+        // Further in they go on with an item that has been closed too early.
+        const ITEM: usize = 4;
+        if self.open.last().is_none_or(|open| self.indent > open.indent.saturating_add(ITEM)) {
             return false;
         }
-        let start = self.at;
-        let length = self.word_length();
-        let fault =
-            Diagnostic::error(codes::MIXED_FIELDS, self.span(start, start + length), "these fields have no kind")
-                .expected("Kind(name: value, ..), as Sphere(radius: 1, ..)")
-                .hint("write the kind and `(` before them");
-        self.sink.push(fault);
+        let line = super::line_ahead(self.text, start);
         let mut depth = 1usize;
         let end = line.bytes().position(|byte| {
             match byte {
@@ -100,8 +95,16 @@ impl Parser<'_> {
             }
             depth == 0
         });
-        self.at = start + end.map_or(line.len(), |end| end + 1);
-        self.builder.leaf(Kind::Broken, start, self.at);
+        // They end with a bracket on their line, and the list goes on behind them.
+        let end = end.filter(|&end| line.as_bytes()[end] == b')').map(|end| start + end + 1);
+        let Some(end) = end.filter(|&end| is_closed_ahead(&self.text[end..], b'[', LONGEST)) else { return false };
+        let found = self.span(start, start + self.word_length());
+        let fault = Diagnostic::error(codes::MIXED_FIELDS, found, "these fields have no kind")
+            .expected("Kind(name: value, ..), as Sphere(radius: 1, ..)")
+            .hint("write the kind and `(` before them");
+        self.sink.push(fault);
+        self.at = end;
+        self.builder.leaf(Kind::Broken, start, end);
         true
     }
 

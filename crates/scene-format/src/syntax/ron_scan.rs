@@ -189,7 +189,8 @@ impl Parser<'_> {
         let found = self.span(self.at, self.at + sign.len());
         let message = format!("comments begin with `//` in RON, not `{sign}`");
         let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("write `//`");
-        fault.edit = Some(Edit { span: found, replacement: "//".to_owned() });
+        // One stroke may be a slip before what is no comment.
+        fault.edit = (sign != "/").then(|| Edit { span: found, replacement: "//".to_owned() });
         self.sink.push(fault);
         self.at += self.rest().find('\n').unwrap_or(self.rest().len());
     }

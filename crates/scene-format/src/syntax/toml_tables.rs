@@ -257,7 +257,8 @@ impl<'s> Tables<'s> {
             builder.leaf(Kind::Broken, 0, 0);
             return None;
         };
-        let mut table = self.kind_alone(&path[0], parents.is_empty(), builder, sink).unwrap_or(ROOT);
+        let alone = if many { None } else { self.kind_alone(&path[0], parents.is_empty(), builder, sink) };
+        let mut table = alone.unwrap_or(ROOT);
         for key in parents {
             match self.find(&builder.nodes, table, key) {
                 Some(found) if self.one_for_many.contains(&(found + 1)) => return None,
