@@ -364,7 +364,12 @@ fn still(moves: Viewpoint, now: &Pose, before: &Pose) -> Viewpoint {
 /// The scene, under its name without folders, and the contents of its file.
 fn load(path: &Path, options: &Options) -> Result<(Loaded, Option<Fingerprint>), LoadError> {
     let io = |source| LoadError::Io { path: path.to_owned(), source };
-    if std::fs::metadata(path).map_err(io)?.len() > MAX_FILE_BYTES {
+    let file = std::fs::metadata(path).map_err(io)?;
+    // Of a pipe nobody knows whether anybody will write into it: reading would wait for ever.
+    if !file.is_file() && !file.is_dir() {
+        return Err(io(std::io::Error::other("it is no regular file")));
+    }
+    if file.len() > MAX_FILE_BYTES {
         // Which tells so.
         return scene_format::load_with(path, &options.overrides).map(|loaded| (loaded, None));
     }

@@ -261,6 +261,12 @@ impl<'t, 's> Item<'t, 's> {
         self.tree.included.iter().find(|file| *file.path == *path)
     }
 
+    /// What stands between two bytes of its text.
+    pub fn text_between(&self, start: usize, end: usize) -> Option<&'s str> {
+        let text: &'s str = self.source().text;
+        text.get(start..end)
+    }
+
     /// The node as it was written.
     pub fn lexeme(&self) -> &'s str {
         let node = self.node;

@@ -171,10 +171,10 @@ fn kinds_told_by_a_field() {
     let text = format!("{{\"lights\": [{light}], {rest}}}");
     let found = errors(&text, Syntax::Json);
     assert!(matches!(found.as_slice(), [only] if only.hint.starts_with("write `{\"SphereLight\": {")), "{found:#?}");
-    // A header of TOML is not edited: it does not stand in one piece.
-    let found = errors("background = 1\n[[objects]]\ntype = \"Box\"\nsize = 1\n", Syntax::Toml);
+    // A header of TOML is not edited where other fields stand between: it is not in one piece.
+    let found = errors("background = 1\n[[objects]]\nsize = 1\ntype = \"Box\"\n", Syntax::Toml);
     assert!(
-        matches!(found.as_slice(), [only] if only.edit.is_none() && only.hint.contains("{ Box = { .. } }")),
+        matches!(found.as_slice(), [only] if only.edit.is_none() && only.hint.contains("[objects.Box]")),
         "{found:#?}"
     );
     // What else is wrong is told in the same run.
@@ -471,6 +471,38 @@ fn what_stands_in_other_places_is_put_right() {
         "Scene(\n    background: 1,\n        objects: [\n        Box(size: 1),\n        Box(size: 2),\n    ],\n)\n";
     assert_eq!(errors(text, Syntax::Ron).len(), 1);
     assert_eq!(mend("scene", text, Syntax::Ron, Path::new("")).text, right);
+}
+
+#[test]
+fn tables_of_toml_that_tell_their_kind_by_a_field() {
+    for (text, right) in [
+        (
+            "background = 1\n[materials.stone]\ntype = \"diffuse\"\nalbedo = 0.5\n[[objects]]\ntype = \"box\"\n\
+             size = 1\n",
+            "background = 1\n[materials.stone.Diffuse]\nalbedo = 0.5\n[[objects]]\n[objects.Box]\nsize = 1\n",
+        ),
+        (
+            "background = 1\nobjects = [{ Box = { size = 1 } }]\n[[lights]]\ntype = \"sphere\"\ncenter = [0, 1, 2]\n\
+             radius = 1\npower = 5\n",
+            "background = 1\nobjects = [{ Box = { size = 1 } }]\n[[lights]]\n[lights.SphereLight]\n\
+             center = [0, 1, 2]\nradius = 1\npower = 5\n",
+        ),
+        (
+            "background = 1\n[[objects]]\n[objects.Plane]\n[objects.Box]\nsize = 1\n",
+            "background = 1\n[[objects]]\n[objects.Plane]\n[[objects]]\n[objects.Box]\nsize = 1\n",
+        ),
+        (
+            "background = 1\n[[objects]]\nBox = { size = 1, transform = { Scale = 2 } } // lamp\n",
+            "background = 1\n[[objects]]\nBox = { size = 1, transform = [{ Scale = 2 }] } # lamp\n",
+        ),
+    ] {
+        let mended = mend("scene", text, Syntax::Toml, Path::new("")).text;
+        assert_eq!(mended, right);
+        assert_eq!(errors(&mended, Syntax::Toml), [], "{mended}");
+    }
+    let text = "{ \"background\": 1, \"objects\": [{ \"Box\": { \"size: 1\", \"name\": \"a\" } }] }";
+    assert_eq!(errors(text, Syntax::Json).len(), 1);
+    assert_eq!(mend("scene", text, Syntax::Json, Path::new("")).text, text.replace("\"size: 1\"", "\"size\": 1"));
 }
 
 /// What is one fault, of which nobody knows what was meant: nothing is edited.

@@ -64,6 +64,21 @@ fn what_is_wrong_is_told_beside_the_page() {
     assert!(matches!(&told[..], [Some(faults), None] if faults.contains("radus") && faults.contains("^")), "{told:?}");
 }
 
+/// A pipe in place of the scene is told, and read by nobody; the scene that comes after it is shown.
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_place_of_the_scene_is_told() {
+    let sandbox = Sandbox::new(SCENE);
+    let stage = stage_of(&sandbox.done_after(0));
+    fs::remove_file(sandbox.path("scene.ron")).expect("it is there");
+    let made = std::process::Command::new("mkfifo").arg(sandbox.path("scene.ron")).status().expect("mkfifo");
+    assert!(made.success());
+    let state = sandbox.until(|state| wrong(state) && texts(state).contains("no regular file"));
+    assert!(wrong(&state));
+    sandbox.rename_save("scene.ron", &SCENE.replace("0.8", "0.6"));
+    sandbox.done_after(stage);
+}
+
 #[test]
 fn ten_saves_in_a_second_end_with_the_last() {
     let sandbox = Sandbox::new(SCENE);

@@ -187,7 +187,7 @@ fn a_material_is_added_among_others_or_before_the_objects() {
         ("background = 1\nmaterials.a.Diffuse.albedo = 1\n[[objects]]\nOBJECT\n", toml, Toml),
         ("{ \"background\": 1, \"objects\": [OBJECT] }", json, Json),
         (
-            "{\n  \"background\": 1,\n  \"materials\": {\n    \"a\": { \"Mirror\": {} }\n  },\n  \"objects\": [OBJECT] }",
+            "{\n \"background\": 1,\n \"materials\": {\n  \"a\": { \"Mirror\": {} }\n },\n \"objects\": [OBJECT] }",
             json,
             Json,
         ),
@@ -437,8 +437,9 @@ fn renamed(text: &str, syntax: Syntax, name: &str) -> Result<String, String> {
 
 #[test]
 fn a_table_of_toml_is_renamed_wherever_it_goes_on() {
-    let text = "[materials.r|ed.Diffuse.albedo.Noise]\na = 0.1\n[materials . \"red\".Diffuse.albedo.Noise.mapping.Object]\n\
-                scale = 3\n[[objects]]\nSphere = { center = [0, 0, 0], radius = 1, material = 'red' }\n[materials]\n\
+    let text = "[materials.r|ed.Diffuse.albedo.Noise]\na = 0.1\n\
+                [materials . \"red\".Diffuse.albedo.Noise.mapping.Object]\nscale = 3\n[[objects]]\n\
+                Sphere = { center = [0, 0, 0], radius = 1, material = 'red' }\n[materials]\n\
                 red.Diffuse.x = 1\nblue = \"red\"\n";
     let after = renamed(text, Toml, "crimson").expect("a name");
     assert_eq!(after.matches("crimson").count(), 4, "{after}");

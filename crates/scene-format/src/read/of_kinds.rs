@@ -290,7 +290,7 @@ const BACKGROUNDS: Hints = &[
     ),
     (
         &["color", "colour", "constant", "rgb", "solid", "uniform", "ambient", "vec3", "srgb"],
-        "a colour stands alone: `background: (0.5, 0.7, 1)`",
+        "a colour stands alone, as the value of `background` itself",
     ),
     (
         &[

@@ -3,6 +3,7 @@
 use super::Reader;
 use super::elsewhere::{axis, degrees, fields_named, numbers};
 use crate::codes;
+use crate::desc::TransformWords;
 use crate::desc::matrix::unnamed_rows;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::schema::{FieldDef, StructDef};
@@ -88,7 +89,7 @@ impl Reader<'_> {
             Syntax::Ron => "a list: [Translate((x, y, z)), Rotate(axis: (x, y, z), degrees: ..)]",
             _ => "a list of transforms",
         };
-        let edit = steps.map(|steps| listed(&steps.concat(), item.syntax()));
+        let edit = steps.map(|steps| listed(&steps.concat(), item.syntax())).or_else(|| each_by_itself(item));
         self.wrong_kind(item, at.noun, expected, edit)
     }
 
@@ -318,4 +319,16 @@ fn scaling(factors: [&str; 3]) -> Meant {
         toml: format!("[{factors}]"),
         certain: true,
     }
+}
+
+/// `{ Rotate = { .. }, Scale = 2 }`, our own transforms in one table, each in a table of its own.
+fn each_by_itself(item: Item<'_, '_>) -> Option<String> {
+    let ours = |key: &Item<'_, '_>| TransformWords::DEF.variant(&key.text()).is_some();
+    if item.syntax() == Syntax::Ron || !item.lexeme().starts_with('{') || !item.fields().all(|(key, _)| ours(&key)) {
+        return None;
+    }
+    let join = if item.syntax() == Syntax::Toml { " =" } else { ":" };
+    let steps: Vec<String> =
+        item.fields().map(|(key, value)| format!("{{ {}{join} {} }}", key.lexeme(), value.lexeme())).collect();
+    Some(format!("[{}]", steps.join(", ")))
 }

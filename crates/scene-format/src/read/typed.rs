@@ -42,8 +42,20 @@ impl Reader<'_> {
         };
         let message = format!("the kind of {} stands before its fields, not in a field `{}`", of_kind(def), key.text());
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, key.span(), message).expected(choices(def, item.syntax()));
-        let meant = def.variants.iter().find(folded).or_else(near);
+        // Of one kind there is no choice.
+        let only = || def.variants.first().filter(|_| def.variants.len() == 1);
+        let meant = def.variants.iter().find(folded).or_else(near).or_else(only);
         match meant {
+            Some(variant) if let Some((way, edit)) = headed(item, key, value, Some(variant.name)) => {
+                (fault.hint, fault.edit) = (way, edit);
+                fault.expected = String::new();
+            }
+            None if told.eq_ignore_ascii_case("repeat")
+                && let Some((way, edit)) = headed(item, key, value, Some("Repeat")) =>
+            {
+                (fault.hint, fault.edit) = (way, edit);
+                fault.expected = String::new();
+            }
             Some(variant) => {
                 let written = inside_out(item, key, value, variant);
                 fault.hint = match &written {
@@ -67,6 +79,26 @@ impl Reader<'_> {
         self.typed = item.index() as u32;
         Some(meant.filter(|variant| matches!(variant.content, Content::Struct(_))))
     }
+}
+
+/// How a table of TOML with a header of its own tells its kind, and the edit that has it do so where the field that
+/// told it stands right below.
+fn headed(
+    item: Item<'_, '_>,
+    key: Item<'_, '_>,
+    value: Item<'_, '_>,
+    kind: Option<&str>,
+) -> Option<(String, Option<Edit>)> {
+    let header = Some(item.lexeme()).filter(|header| header.starts_with('[') && item.syntax() == Syntax::Toml)?;
+    let (path, kind) = (header.trim_matches(['[', ']', ' ', '\t']), kind?);
+    let (way, mended) = match header.starts_with("[[") {
+        true => (format!("write [{path}.{kind}] below [[{path}]]"), format!("{header}\n[{path}.{kind}]")),
+        false => (format!("write the header as [{path}.{kind}]"), format!("[{path}.{kind}]")),
+    };
+    let (start, end) = (item.span().end as usize, key.span().start as usize);
+    let below = item.text_between(start, end).is_some_and(|between| between.trim().is_empty());
+    let span = crate::diagnostic::Span { end: value.span().end, ..item.span() };
+    Some((way, below.then_some(Edit { span, replacement: mended })))
 }
 
 fn variants(def: &'static EnumDef) -> impl Iterator<Item = &'static str> {

@@ -110,6 +110,22 @@ impl Reader<'_> {
         let mut fault = Diagnostic::error(codes::UNKNOWN_FIELD, other.span(), message)
             .expected(format!("one {}; its fields stand inside its own braces", def.noun))
             .label(kind.span(), format!("this is the {}", def.noun));
+        // Two kinds below one header of a list: the second has none of its own.
+        let header = item.fields().find(|(key, _)| key.index() == other.index()).map(|(_, value)| value);
+        if let Some(header) = header.filter(|value| def.variant(&field).is_some() && value.lexeme().starts_with('['))
+            && item.lexeme().starts_with("[[")
+        {
+            let (list, at) = (item.lexeme(), header.span());
+            fault.expected = format!("{list} before each");
+            fault.hint = format!("write {list} on a line before it");
+            let span = crate::diagnostic::Span { end: at.start, ..at };
+            // Where the list's name is mistyped there, that is told already.
+            let name = format!("`{}`", list.trim_matches(['[', ']']));
+            if !self.sink.diagnostics.iter().any(|told| told.hint.contains(&name)) {
+                fault.edit = Some(Edit { span, replacement: format!("{list}\n") });
+            }
+            return self.report(fault);
+        }
         let own = def.variant(&name).is_some_and(
             |variant| matches!(variant.content, Content::Struct(fields) if fields.field(&field).is_some()),
         );

@@ -317,6 +317,7 @@ impl Parser<'_> {
         let start = self.at;
         let mark = self.builder.nodes.len();
         match self.peek() {
+            Some(b'"') if self.entry_in_quotes() => return,
             Some(b'"') if self.name_without_last_quote() => {}
             Some(b'"') => {
                 self.text_literal();

@@ -257,6 +257,13 @@ impl<'p> Parser<'p> {
 
     /// A text that has no quotes, or no first one, begins here.
     pub(super) fn text_without_quotes(&mut self, start: usize) {
+        if let Some((body, length)) = arithmetic::of_languages(super::line_ahead(self.text, start)) {
+            // Whether an angle was meant, and in which unit, nobody knows: no edit is certain.
+            self.at = start + length;
+            let fault = arithmetic::without_quotes(&body, self.span(start, self.at));
+            let hint = format!("{}; angles are in degrees", fault.hint);
+            return self.broken(start, Diagnostic { edit: None, hint, ..fault });
+        }
         self.at = start + self.bare_text();
         let text = self.text[start..self.at].trim_end_matches('"');
         let found = self.span(start, self.at);

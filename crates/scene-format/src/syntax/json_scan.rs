@@ -4,6 +4,7 @@ use super::json::Parser;
 use super::{means_nothing, span};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::tree::Kind;
 
 impl<'p> Parser<'p> {
     pub(super) fn control_character(&mut self, sign: char) {
@@ -175,5 +176,33 @@ impl<'p> Parser<'p> {
 
     pub(super) fn span(&self, start: usize, end: usize) -> Span {
         span(self.builder.source, start, end)
+    }
+}
+
+impl Parser<'_> {
+    /// `"name: value"`, an entry between one pair of quotes; reported.
+    pub(super) fn entry_in_quotes(&mut self) -> bool {
+        let start = self.at;
+        let line = super::line_ahead(self.text, start + 1);
+        let Some((inner, rest)) = line.split_once('"') else { return false };
+        let ends = rest.trim_start().is_empty() || rest.trim_start().starts_with([',', '}']);
+        let Some((name, value)) = inner.split_once(':').filter(|_| ends) else { return false };
+        let plain = !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+        if !plain || value.trim().is_empty() || value.contains('\\') {
+            return false;
+        }
+        let end = start + 2 + inner.len();
+        let found = self.span(start, end);
+        let mended = format!("\"{name}\":{value}");
+        let mut fault =
+            Diagnostic::error(codes::UNCLOSED_TEXT, found, "the quote after the name stands behind its value")
+                .expected("\"name\": value")
+                .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Key, start + 1, start + 1 + name.len());
+        self.builder.leaf(Kind::Broken, start, end);
+        self.at = end;
+        true
     }
 }

@@ -390,8 +390,8 @@ impl Parser<'_> {
 /// Objects are no longer, and a file of brackets must not take quadratic time.
 const OBJECT: usize = 400;
 
-/// Whether the bracket that a text stands in is closed in its first bytes, so many, before any other one: whatever begins
-/// the text is within.
+/// Whether the bracket that a text stands in is closed in its first bytes, so many, before any other one: whatever
+/// begins the text is within.
 pub(super) fn is_closed_ahead(text: &str, bracket: u8, longest: usize) -> bool {
     let (mut open, mut quoted): (Vec<u8>, bool) = (vec![bracket], false);
     for byte in text.bytes().take(longest) {

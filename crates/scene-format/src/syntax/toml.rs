@@ -388,6 +388,11 @@ impl Parser<'_> {
                     let found = self.range(start, start);
                     fault.edit = Some(Edit { span: found, replacement: "\n".to_owned() });
                 }
+                if let Some(sign) = ["//", "--"].into_iter().find(|sign| rest.starts_with(sign)) {
+                    fault.hint = "comments begin with #".to_owned();
+                    let found = self.range(start, start + sign.len());
+                    fault.edit = Some(Edit { span: found, replacement: "#".to_owned() });
+                }
                 if let Some(hint) = sign.filter(|_| end == start + 1) {
                     fault.hint = hint.to_owned();
                     fault.edit = Some(Edit { span: found, replacement: String::new() });

@@ -5,6 +5,7 @@ use super::toml::Parser;
 use super::{Syntax, arithmetic, constructs, decode, from_ron};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
+use crate::expression;
 use crate::tree::Kind;
 use std::ops::Range;
 use toml_parser::lexer::TokenKind;
@@ -138,6 +139,9 @@ impl Parser<'_> {
                 Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("`{lexeme}` is not a value in TOML"))
                     .expected("a number, a \"text\", true, false, a [list] or a { table = .. }")
                     .hint(format!("write {mended}"));
+            if expression::is_name(lexeme) && lexeme.starts_with(|c: char| c.is_ascii_lowercase()) {
+                fault.hint += &format!(", or \"={lexeme}\" for one of `vars`");
+            }
             if !lexeme.contains(['"', '\\', '(', ')']) {
                 fault.edit = Some(Edit { span: found, replacement: mended });
             }

@@ -16,7 +16,7 @@
 //! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
 //! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
 //!
-//! The brightest thousandth of the pixels counts as no brighter than the next ([`Film::brightest`]): a lamp smaller than a
+//! The brightest thousandth of the pixels counts as no brighter than the next (`Film::brightest`): a lamp smaller than a
 //! pixel is met by chance, and would be nearly all of the noise, and of the mean.
 //!
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
@@ -172,10 +172,10 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// Root mean square over the pixels of their standard error, relative to the mean luminance, the brightest thousandth
-    /// of them taken for no brighter than the next: the noise of the picture as one number. It is seen from how much
-    /// pictures of other samples differ; of parts that were merged it is what independent samples would have, which is
-    /// more. Zero where no pixel has two samples: nobody can tell.
+    /// Root mean square over the pixels of their standard error, relative to the mean luminance, the brightest
+    /// thousandth of them taken for no brighter than the next: the noise of the picture as one number. It is seen from
+    /// how much pictures of other samples differ; of parts that were merged it is what independent samples would have,
+    /// which is more. Zero where no pixel has two samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
         let brightest = self.brightest();
@@ -193,8 +193,8 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// The luminance, in the sums' own unit and to a hundredth of itself, that one pixel of a thousand is brighter than.
-    /// Infinite where there are fewer pixels.
+    /// The luminance, in the sums' own unit and to a hundredth of itself, that one pixel of a thousand is brighter
+    /// than. Infinite where there are fewer pixels.
     fn brightest(&self) -> f64 {
         // Of numbers that are not negative, the first bits are in their order.
         const SHIFT: u32 = 16;

@@ -76,7 +76,9 @@ pub(super) fn run(args: &ConvertArgs, shell: &Shell) -> Result<ExitCode, Failure
 
 /// Sees that the scene that is written replaces no file that the other one names.
 fn spare_named(path: &Path, args: &ConvertArgs, name: &str, text: &str, syntax: Syntax) -> Result<(), Failure> {
-    let Some(folder) = args.scene.parent().filter(|_| path.is_file() && !is_dash(&args.scene)) else { return Ok(()) };
+    // What comes by standard input names files from the folder that one is in.
+    let folder = if is_dash(&args.scene) { Some(Path::new("")) } else { args.scene.parent() };
+    let Some(folder) = folder.filter(|_| path.is_file()) else { return Ok(()) };
     // What is wrong with it is no matter here: that it names files is.
     let named = scene_format::load_str(name, text, syntax, folder, &[])
         .map_or_else(|_| mentioned_in(name, text, folder), |loaded| loaded.scene.mentioned());

@@ -104,6 +104,7 @@ fn converted_scenes_spare_what_they_include() {
     sandbox.write("more.toml", "include = [\"lib.ron\"]\n[vars]\nh = 2\n");
     let says = "-o lib.ron would replace a file that the scene names";
     sandbox.run(&["convert", "more.toml", "-o", "lib.ron", "--force"]).ends(2).says(&[says]);
+    sandbox.shell("\"$T\" convert - --syntax toml -o lib.ron --force < more.toml").ends(2).says(&[says]);
     sandbox.run(&["render", "all.ron", "-o", "all.png", "-s", "1", "--size", "8x8"]).ends(0);
     sandbox.run(&["new", "lib.ron", "--from", "all.png", "--force"]).ends(2).says(&["is a file that the scene names"]);
     assert_eq!(sandbox.text("lib.ron"), library);
