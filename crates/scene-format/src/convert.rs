@@ -36,8 +36,8 @@ pub fn comments(text: &str, syntax: Syntax) -> usize {
 /// of them did, and a byte order mark stays. `name` is shown in diagnostics.
 ///
 /// # Errors
-/// As [`convert`], but names that nobody has given and values out of range do not count, as they are laid out all the
-/// same.
+/// As [`convert`], but names that nobody has given, values out of range and what is missing do not count, as the rest is
+/// laid out all the same.
 pub fn format(name: &str, text: &str, syntax: Syntax) -> Result<String, LoadError> {
     let tidy = write(name, text, syntax, syntax, true)?;
     // Whoever has saved it so has editors that want it so.
@@ -86,7 +86,9 @@ fn is_of_others(fault: &Diagnostic) -> bool {
 /// Whether a fault is one of what is written, not of how: what it is laid out as does not depend on it.
 fn is_of_values(fault: &Diagnostic) -> bool {
     let names = [codes::UNKNOWN_MATERIAL, codes::UNKNOWN_NAME, codes::UNKNOWN_CAMERA, codes::UNKNOWN_MASK];
-    fault.code.is_value() || names.contains(&fault.code)
+    // What is not there yet does not stand in the way of what is.
+    let missing = [codes::MISSING_FIELD, codes::EXACTLY_ONE, codes::NO_OBJECTS];
+    fault.code.is_value() || names.contains(&fault.code) || missing.contains(&fault.code)
 }
 
 /// Whether a text is there to be included: it has values, textures, materials or cameras for other scenes, and nothing

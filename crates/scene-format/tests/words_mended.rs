@@ -500,6 +500,9 @@ fn tables_of_toml_that_tell_their_kind_by_a_field() {
         assert_eq!(mended, right);
         assert_eq!(errors(&mended, Syntax::Toml), [], "{mended}");
     }
+    let found =
+        errors("background = 1\nmaterials.\"a\\i\".Mirror = {}\n[[objects]]\nBox = { size = 1 }\n", Syntax::Toml);
+    assert!(matches!(found.as_slice(), [only] if only.code.as_str() == "E0108"), "{found:#?}");
     let text = "{ \"background\": 1, \"objects\": [{ \"Box\": { \"size: 1\", \"name\": \"a\" } }] }";
     assert_eq!(errors(text, Syntax::Json).len(), 1);
     assert_eq!(mend("scene", text, Syntax::Json, Path::new("")).text, text.replace("\"size: 1\"", "\"size\": 1"));

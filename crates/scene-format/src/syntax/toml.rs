@@ -294,7 +294,9 @@ impl Parser<'_> {
         let lexeme = self.lexeme();
         if self.kind != TokenKind::Atom {
             let closed = lexeme.len() >= 2 && lexeme.as_bytes().first() == lexeme.as_bytes().last();
-            if !closed {
+            if closed {
+                self.escapes(self.span.start(), self.span.end(), 1);
+            } else {
                 self.unclosed_text();
             }
             return;

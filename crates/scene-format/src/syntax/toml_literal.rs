@@ -351,6 +351,14 @@ impl Parser<'_> {
             }
             return;
         }
+        let sound = self.escapes(start, end, quotes);
+        self.bump();
+        self.values.leaf(if sound { Kind::Text } else { Kind::Broken }, start, end);
+    }
+
+    /// Whether all escapes of a text between so many quotes mean something; the first that does not is reported.
+    pub(super) fn escapes(&mut self, start: usize, end: usize, quotes: usize) -> bool {
+        let lexeme = &self.text[start..end];
         let mut faults = Vec::new();
         if matches!(self.kind, TokenKind::BasicString | TokenKind::MlBasicString) && lexeme.contains('\\') {
             let span = toml_parser::Span::new_unchecked(0, lexeme.len());
@@ -359,22 +367,20 @@ impl Parser<'_> {
             let mut sink = |fault: toml_parser::ParseError| faults.push(fault);
             let _kind = raw.decode_scalar(&mut out, &mut sink);
         }
-        if let Some(fault) = faults.first() {
-            let at = fault.unexpected().unwrap_or(toml_parser::Span::new_unchecked(0, lexeme.len()));
-            let from = lexeme[..at.start().min(lexeme.len())].rfind('\\').unwrap_or(at.start());
-            let to = from + 1 + lexeme[from + 1..].chars().next().map_or(0, char::len_utf8);
-            let found = self.range(start + from, start + to);
-            let escape = &lexeme[from..to];
-            let mut told = Diagnostic::error(codes::BAD_ESCAPE, found, format!("`{escape}` means nothing in a text"))
-                .expected("\\\\ \\\" \\n \\t \\r \\u00e9 or \\U0001f408")
-                .hint("write a backslash as `\\\\`, or the text in 'single quotes'; in paths `/` does everywhere");
-            let inner = lexeme.get(quotes..lexeme.len() - quotes).unwrap_or("");
-            told.edit = decode::with_slashes(inner)
-                .map(|path| Edit { span: self.range(start + quotes, end - quotes), replacement: path });
-            self.sink.push(told);
-        }
-        self.bump();
-        self.values.leaf(if faults.is_empty() { Kind::Text } else { Kind::Broken }, start, end);
+        let Some(fault) = faults.first() else { return true };
+        let at = fault.unexpected().unwrap_or(toml_parser::Span::new_unchecked(0, lexeme.len()));
+        let from = lexeme[..at.start().min(lexeme.len())].rfind('\\').unwrap_or(at.start());
+        let to = from + 1 + lexeme[from + 1..].chars().next().map_or(0, char::len_utf8);
+        let found = self.range(start + from, start + to);
+        let escape = &lexeme[from..to];
+        let mut told = Diagnostic::error(codes::BAD_ESCAPE, found, format!("`{escape}` means nothing in a text"))
+            .expected("\\\\ \\\" \\n \\t \\r \\u00e9 or \\U0001f408")
+            .hint("write a backslash as `\\\\`, or the text in 'single quotes'; in paths `/` does everywhere");
+        let inner = lexeme.get(quotes..lexeme.len() - quotes).unwrap_or("");
+        told.edit = decode::with_slashes(inner)
+            .map(|path| Edit { span: self.range(start + quotes, end - quotes), replacement: path });
+        self.sink.push(told);
+        false
     }
 
     pub(super) fn unclosed_text(&mut self) {

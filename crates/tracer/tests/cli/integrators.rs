@@ -111,6 +111,9 @@ fn a_layer_is_shown_as_a_picture() {
         assert!(colours.len() > 3, "{layer}");
     }
     ran("path_length").says(&["path_length: 1 is dark"]);
+    // Nobody's picture is replaced by a map that has no name.
+    sandbox.run(&["render", "scene.ron", "--samples", "2", "--show", "noise"]).ends(0).says(&["scene_noise.png in"]);
+    assert!(!sandbox.files().contains(&"scene.png".to_owned()));
     let wrong = ["render", "scene.ron", "-o", "a.exr", "--show", "noise"];
     sandbox.run(&wrong).ends(2).says(&["--show is for PNG only"]);
     let wrong = ["render", "scene.ron", "-o", "a.png", "--show", "heat"];

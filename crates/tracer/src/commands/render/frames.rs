@@ -108,7 +108,8 @@ pub(super) fn numbered(args: &RenderArgs) -> Result<RenderArgs, Failure> {
 fn beside(args: &RenderArgs) -> PathBuf {
     let stem = args.scene.scene.file_stem().unwrap_or_default().to_string_lossy();
     let kind = args.format.as_deref().unwrap_or("png");
-    args.scene.scene.with_file_name(format!("{stem}_####.{kind}"))
+    let layer = args.show.map_or(String::new(), |layer| format!("_{}", super::outputs::layer_name(layer)));
+    args.scene.scene.with_file_name(format!("{stem}{layer}_####.{kind}"))
 }
 
 /// All files that are written, with their options.

@@ -11,7 +11,7 @@ use scene_format::SceneDesc;
 use std::collections::HashSet;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use tracer_core::Mattes;
+use tracer_core::{Layer, LayerSet, Mattes};
 
 /// A picture to write.
 pub struct Output {
@@ -54,12 +54,24 @@ pub(super) fn named(args: &RenderArgs) -> Result<RenderArgs, Failure> {
     expect_there(scene)?;
     // Otherwise the option would be said to go with names that nobody has written.
     let kind = args.format.take().unwrap_or_else(|| "png".to_owned());
-    let picture = scene.with_extension(&kind);
+    let picture = match args.show {
+        // A heat map is not the picture.
+        Some(layer) => {
+            let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
+            scene.with_file_name(format!("{stem}_{}.{kind}", layer_name(layer)))
+        }
+        None => scene.with_extension(&kind),
+    };
     if Encoding::from_path(&picture, Bits::default()).is_ok() {
         spare_other(&picture, OutputKind::Picture).map_err(|error| Failure::wrong(format!("{error} by -o")))?;
     }
     args.output.push(picture);
     Ok(args)
+}
+
+/// A layer's name, as files have it.
+pub(super) fn layer_name(layer: Layer) -> &'static str {
+    LayerSet::from_iter([layer]).names().next().unwrap_or_default()
 }
 
 /// The pictures that the command line asks for.
