@@ -36,8 +36,8 @@ pub fn comments(text: &str, syntax: Syntax) -> usize {
 /// of them did, and a byte order mark stays. `name` is shown in diagnostics.
 ///
 /// # Errors
-/// As [`convert`], but names that nobody has given, values out of range and what is missing do not count, as the rest is
-/// laid out all the same.
+/// As [`convert`], but names that nobody has given, values out of range and what is missing do not count, as the rest
+/// is laid out all the same.
 pub fn format(name: &str, text: &str, syntax: Syntax) -> Result<String, LoadError> {
     let tidy = write(name, text, syntax, syntax, true)?;
     // Whoever has saved it so has editors that want it so.
@@ -64,7 +64,7 @@ fn write(name: &str, text: &str, from: Syntax, to: Syntax, keeps_blanks: bool) -
     }
     let mut sink = Sink::default();
     let tree = parse(text, from, &mut sink);
-    let Some(root) = tree.root() else { return Ok(String::new()) };
+    let Some(root) = tree.root() else { return Ok(if from == to { text.to_owned() } else { String::new() }) };
     let blanks = keeps_blanks.then_some(0);
     let mut converter = Converter { tree: &tree, next_comment: 0, inside: Vec::new(), from, to, blanks };
     // What stands at the file's top stays there: a headline, a licence, how to render it.

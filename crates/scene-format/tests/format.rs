@@ -299,7 +299,10 @@ fn nothing_of_a_wrong_scene_is_lost() {
 
 #[test]
 fn a_wrong_scene_is_not_touched() {
-    assert!(format("s.ron", "Scene(objects: [Sphere(radius: 1)])", Syntax::Ron).is_err());
+    assert!(format("s.ron", "Scene(objects: [Sphere(radus: 1)])", Syntax::Ron).is_err());
+    // What is missing does not stand in the way of what is there.
+    let begun = format("s.ron", "Scene(objects: [Sphere(radius:1)])", Syntax::Ron).expect("it is laid out");
+    assert_eq!(begun, "Scene(\n    objects: [Sphere(radius: 1)],\n)\n");
 }
 
 /// Comments within numbers that stand on one line move up before it; nothing that stands behind goes along.

@@ -508,6 +508,19 @@ fn tables_of_toml_that_tell_their_kind_by_a_field() {
     assert_eq!(mend("scene", text, Syntax::Json, Path::new("")).text, text.replace("\"size: 1\"", "\"size\": 1"));
 }
 
+#[test]
+fn an_object_alone_and_a_name_without_its_last_quote() {
+    let text = "Sphere(center: (0, 1, 0), radius: 1)";
+    assert_eq!(errors(text, Syntax::Ron).len(), 1);
+    let right = format!("Scene(background: 1, objects: [{text}])");
+    assert_eq!(mend("scene", text, Syntax::Ron, Path::new("")).text, right);
+    let right = "Scene(background: 1, materials: {\n\"wood\": Diffuse(albedo: Texture(file: \"a.png\")),\n}, \
+                 objects: [Box(size: 1, material: \"wood\")])";
+    let text = right.replacen("\"wood\":", "\"wood:", 1);
+    assert_eq!(errors(&text, Syntax::Ron).len(), 1);
+    assert_eq!(mend("scene", &text, Syntax::Ron, Path::new("")).text, right);
+}
+
 /// What is one fault, of which nobody knows what was meant: nothing is edited.
 #[test]
 fn what_is_not_certain_stays() {

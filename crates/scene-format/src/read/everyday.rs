@@ -79,6 +79,40 @@ const WORDS: &[(&[&str], &str)] = &[
          the nearer",
     ),
     (
+        &["kelvin", "temperature", "color_temperature", "warm", "cold"],
+        "the colour of what glows is that of its temperature in kelvin: `color: \"=blackbody(2700)\"` beside `power` \
+         or another amount",
+    ),
+    (
+        &["watt", "watts", "lumen", "lumens", "lux", "candela", "nits", "wattage"],
+        "how much light there is is `power` in W, `radiance` in W/(sr m^2), `intensity` in W/sr, `luminous_power` in \
+         lm, `luminous_intensity` in cd or `luminance` in cd/m^2: one of them",
+    ),
+    (&["bulb", "lamp", "lightbulb", "lantern"], "a bulb is a small SphereLight, or a shape of the material Emissive"),
+    (
+        &["pillar", "column", "colonnade"],
+        "a pillar is a Cylinder; a row of them is its `placements: Grid(..)` or Ring(..)",
+    ),
+    (&["isometric", "ortho", "parallel"], "parallel rays are a camera's `projection: Orthographic(height: 4)`"),
+    (
+        &["fresnel", "schlick"],
+        "glass, metal and `energy_conserving` gloss reflect more at grazing angles by themselves; there is no such \
+         field",
+    ),
+    (
+        &["expression", "expressions", "formula", "arithmetic", "calculation"],
+        "a text that begins with `=` is reckoned wherever a number may stand: `radius: \"=2*r\"`; `r` stands in `vars`",
+    ),
+    (
+        &["preview", "watch", "viewer", "window_preview"],
+        "`tracer preview scene.ron` shows the picture in the browser while the scene is edited",
+    ),
+    (&["gpu", "cuda", "opencl", "optix"], "there is no need of a GPU: all cores of the processor are at work"),
+    (
+        &["instancing", "instances", "duplicate"],
+        "copies of an object are its `placements`: a list, a file, Grid(..), Ring(..) or Scatter(..)",
+    ),
+    (
         &["f_stop", "fstop", "f-stop", "fnumber", "bokeh"],
         "the `aperture` of a ThinLens is its focal length over the f-number",
     ),

@@ -54,7 +54,7 @@ pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
 
 use crate::codes;
-use crate::desc::{ITEMS, Nested, Scene};
+use crate::desc::{ITEMS, Nested, Object, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
 use crate::examples::lines;
 use crate::schema::{FieldDef, StructDef, Type};
@@ -250,6 +250,13 @@ impl<'r> Reader<'r> {
             .expected(format!("{}(..), or brackets without a name", def.name));
         match camera::projection_elsewhere(name, def, item.syntax()) {
             Some(way) => fault.hint = way,
+            // An object alone.
+            None if def.name == Scene::DEF.name && Object::DEF.variant(name).is_some() => {
+                fault.message = format!("an object stands in a scene: this is a `{name}` alone");
+                fault.hint = format!("write Scene(background: 1, objects: [{name}(..)])");
+                let replacement = format!("Scene(background: 1, objects: [{}])", item.lexeme());
+                fault.edit = Some(Edit { span: item.span(), replacement });
+            }
             None => {
                 fault.edit = Some(Edit { span: item.head(), replacement: def.name.to_owned() });
                 fault.hint = format!("write `{}`", def.name);
@@ -415,9 +422,11 @@ impl<'r> Reader<'r> {
     }
 
     fn duplicate(&mut self, key: Item<'_, '_>, name: &str, first: Item<'_, '_>) {
+        let lists = matches!(first.kind(), Kind::List | Kind::Map);
+        let way = if lists { "put both into one, or remove one of the two" } else { "remove one of the two" };
         self.report(
             Diagnostic::error(codes::DUPLICATE_FIELD, key.span(), format!("`{name}` is written twice"))
-                .hint("remove one of the two")
+                .hint(way)
                 .label(first.head(), "the first value is here"),
         );
     }

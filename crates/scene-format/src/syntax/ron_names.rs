@@ -182,6 +182,27 @@ impl Parser<'_> {
         self.skip_broken();
     }
 
+    /// `"name: value` with another quote in its line, by which the text would end in the middle of the value; reported.
+    fn name_without_last_quote(&mut self) -> bool {
+        let start = self.at;
+        let Some(inner) = super::line_ahead(self.text, start).strip_prefix('"') else { return false };
+        let length = inner.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(inner.len());
+        let Some(close) = inner.find('"') else { return false };
+        let joined = |rest: &str| rest.trim_start().starts_with(':');
+        if length == 0 || length > close || !inner[length..].starts_with(':') || joined(&inner[close + 1..]) {
+            return false;
+        }
+        self.at += 1 + length;
+        let found = self.span(start, self.at);
+        let mut fault = Diagnostic::error(codes::UNCLOSED_TEXT, found, "this name has no last quote")
+            .expected("{ \"name\": value }")
+            .hint(format!("write {}\"", &self.text[start..self.at]));
+        fault.edit = Some(Edit { span: self.span(self.at, self.at), replacement: "\"".to_owned() });
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Key, start + 1, self.at);
+        true
+    }
+
     /// What stands between single quotes here, before the sign that joins it to a value.
     fn single_quoted(&self) -> Option<&str> {
         let line = super::line_ahead(self.text, self.at);
@@ -194,7 +215,9 @@ impl Parser<'_> {
     pub(super) fn map_entry(&mut self) {
         let start = self.at;
         let length = self.word_length();
-        if self.peek() == Some(b'"') || self.is_raw_text() {
+        if self.name_without_last_quote() {
+            // Its value follows.
+        } else if self.peek() == Some(b'"') || self.is_raw_text() {
             let mark = self.builder.nodes.len();
             if self.peek() == Some(b'"') {
                 self.text_literal()

@@ -44,7 +44,10 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode, Failure> {
 }
 
 fn unknown(asked: &str) -> Failure {
+    // Of a short word that begins otherwise nobody would think.
+    let alike = |near: &&str| asked.len() > 4 || near[..1].eq_ignore_ascii_case(asked.get(..1).unwrap_or(""));
     let tip = scene_format::nearest(asked, scene_format::words().iter().map(String::as_str))
+        .filter(alike)
         .map_or(String::new(), |near| format!(" did you mean {near}?"));
     Failure::wrong(format!("there is no code and no word `{asked}`;{tip} `tracer explain` lists all codes"))
 }
