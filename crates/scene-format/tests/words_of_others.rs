@@ -62,7 +62,7 @@ fn kinds_of_objects() {
         ("Box(size: 1, transform: [Resize((1, 2, 3))])", "the nearest here is `FitTo(size: ..)`"),
         ("Box(size: 1, transform: [FitTo(2)])", "write `height: 2`"),
         ("Box(size: 1, transform: [FitTo(height: 2, width: 1)])", "remove all but one"),
-        ("Box(size: 1, transform: [FitTo(about: (0, 0, 0))])", "add one, as in FitTo(height: 1.5)"),
+        ("Box(size: 1, transform: [FitTo(about: (0, 0, 0))])", "add `height: ..`"),
         ("Box(size: 1, matrix: 1)", "`transform: [Matrix(rows: "),
     ];
     check(&cases, |object| scene("", "", object));

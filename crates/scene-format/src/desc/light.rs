@@ -47,6 +47,12 @@ impl Light {
     }
 }
 
+impl SphereLight {
+    /// Its kind, and an example of it.
+    pub(crate) const TOLD: (&'static str, &'static str) =
+        ("SphereLight", "SphereLight(center: (0, 5, 0), radius: 0.5, radiance: 20)");
+}
+
 /// A luminous sphere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphereLight {

@@ -54,9 +54,8 @@ pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
 
 use crate::codes;
-use crate::desc::{ITEMS, Nested, Object, Scene};
+use crate::desc::{ITEMS, Material, Nested, Object, Scene, SphereLight};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
-use crate::examples::lines;
 use crate::schema::{FieldDef, StructDef, Type};
 use crate::suggest;
 use crate::syntax::{Sink, Syntax};
@@ -585,12 +584,13 @@ pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static st
     def.fields.iter().map(|field| field.name)
 }
 
-/// How one of the fields of which there must be one is added: as in the shortest example.
+/// How one of the fields of which there must be one is added: as in the example of the kind.
 fn one_of(def: &StructDef, syntax: Syntax) -> String {
-    let of_kind = |line: &&str| line.split('(').next() == Some(def.name);
-    let examples = || def.exactly_one.iter().filter_map(|field| lines::field(field, def.name)).filter(of_kind);
-    match examples().min_by_key(|line| line.len()).filter(|_| syntax == Syntax::Ron) {
-        Some(example) => format!("add one, as in {example}"),
-        None => syntax.of_toml(format!("add `{} = ..`", def.exactly_one[0])).into_owned(),
+    let told = Material::TOLD.iter().chain(Object::TOLD).map(|(kind, _, example)| (*kind, *example));
+    let example = told.chain([SphereLight::TOLD]).find(|(kind, _)| *kind == def.name);
+    match (example, syntax) {
+        (Some((_, example)), Syntax::Ron) => format!("add one, as in {example}"),
+        (_, Syntax::Ron) => format!("add `{}: ..`", def.exactly_one[0]),
+        _ => syntax.of_toml(format!("add `{} = ..`", def.exactly_one[0])).into_owned(),
     }
 }

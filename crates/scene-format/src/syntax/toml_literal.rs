@@ -68,6 +68,7 @@ impl Parser<'_> {
     }
 
     /// A number, `true`, `false`, a date, or a word that should have quotes.
+    // Long: one arm for each thing that is none of these.
     pub(super) fn atom(&mut self) {
         if self.plain_atom() {
             return;

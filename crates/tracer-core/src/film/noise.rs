@@ -16,8 +16,8 @@
 //! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
 //! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
 //!
-//! The brightest thousandth of the pixels counts as no brighter than the next (`Film::brightest`): a lamp smaller than
-//! a pixel is met by chance, and would be nearly all of the noise, and of the mean.
+//! The brightest thousandth of the pixels counts as no brighter than the next (`Film::brightest`): a lamp smaller
+//! than a pixel is met by chance, and would be nearly all of the noise, and of the mean.
 //!
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
 //! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
