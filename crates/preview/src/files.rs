@@ -50,7 +50,9 @@ pub fn fingerprint(bytes: &[u8]) -> Fingerprint {
     hasher.finish()
 }
 
+/// `None` of what is no file, too: a pipe would be waited for.
 fn contents(path: &Path) -> Option<Fingerprint> {
+    fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
     Some(fingerprint(&fs::read(path).ok()?))
 }
 
