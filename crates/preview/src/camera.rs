@@ -222,7 +222,11 @@ pub fn undo(shared: &Shared, undo: &Mutex<Undo>) -> Result<(), Refused> {
 
 fn text(path: &Path) -> Result<String, Refused> {
     let unread = |error| Refused::Now(format!("cannot read the scene: {error}"));
-    if std::fs::metadata(path).map_err(unread)?.len() > LONGEST {
+    let file = std::fs::metadata(path).map_err(unread)?;
+    if !file.is_file() {
+        return Err(Refused::Now("the scene is no regular file".to_owned()));
+    }
+    if file.len() > LONGEST {
         return Err(Refused::Now("the file is too large to be written from here".to_owned()));
     }
     std::fs::read_to_string(path).map_err(unread)

@@ -117,7 +117,7 @@ fn goes_on(text: &str, at: usize, indent: usize) -> bool {
 fn brackets_of(line: &str) -> impl Iterator<Item = (usize, u8)> {
     let (mut quoted, bytes) = (false, line.as_bytes());
     let end = bytes.iter().position(|byte| *byte == b'\n').unwrap_or(bytes.len()).min(WEIGHED_BYTES);
-    let code = (0..end).take_while(move |&at| !(bytes[at..].starts_with(b"//") && !quoted_before(bytes, at)));
+    let code = (0..end).take_while(move |&at| !bytes[at..].starts_with(b"//") || quoted_before(bytes, at));
     code.filter_map(move |at| {
         quoted ^= bytes[at] == b'"';
         let bracket = matches!(bytes[at], b'(' | b')' | b'[' | b']' | b'{' | b'}');
