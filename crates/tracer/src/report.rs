@@ -374,7 +374,7 @@ pub struct Samples {
 #[derive(Debug, Serialize)]
 pub struct Noise {
     /// Root mean square of the standard error of a pixel's luminance, relative to the picture's mean luminance, the
-    /// brightest thousandth taken for no brighter than the next; of parts that were merged an upper bound.
+    /// brightest 0.4 % taken for no brighter than the next; of parts that were merged an upper bound.
     pub relative: f64,
 }
 

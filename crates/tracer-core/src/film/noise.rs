@@ -16,8 +16,8 @@
 //! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
 //! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
 //!
-//! The brightest thousandth of the pixels counts as no brighter than the next (`Film::brightest`): a lamp smaller
-//! than a pixel is met by chance, and would be nearly all of the noise, and of the mean.
+//! The brightest 0.4 % of the pixels count as no brighter than the next (`Film::brightest`): a lamp smaller than a
+//! pixel is met by chance, and would be nearly all of the noise, and of the mean. The filter spreads it over some fifty.
 //!
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
 //! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
@@ -31,6 +31,9 @@ const FEW: f64 = 6.0;
 
 /// m of 72 pixels: they tell how fast the noise has fallen over two octaves to a sixth.
 const MANY: f64 = 24.0;
+
+/// One pixel of so many may be brighter than all others.
+const SHARE: f64 = 250.0;
 
 /// What is known of the noise from the last octave of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -173,7 +176,7 @@ impl Film {
     }
 
     /// Root mean square over the pixels of their standard error, relative to the mean luminance, the brightest
-    /// thousandth of them taken for no brighter than the next: the noise of the picture as one number. It is seen from
+    /// 0.4 % of them taken for no brighter than the next: the noise of the picture as one number. It is seen from
     /// how much pictures of other samples differ; of parts that were merged it is what independent samples would have,
     /// which is more. Zero where no pixel has two samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
@@ -193,12 +196,12 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// The luminance, in the sums' own unit and to a hundredth of itself, that one pixel of a thousand is brighter
-    /// than. Infinite where there are fewer pixels.
+    /// The luminance, in the sums' own unit and to a hundredth of itself, that one pixel of 250 is brighter than.
+    /// Infinite where there are fewer pixels.
     fn brightest(&self) -> f64 {
         // Of numbers that are not negative, the first bits are in their order.
         const SHIFT: u32 = 16;
-        let allowed = (self.count() / 1000.0) as u64;
+        let allowed = (self.count() / SHARE) as u64;
         if allowed == 0 {
             return f64::INFINITY;
         }
