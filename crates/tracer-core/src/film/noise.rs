@@ -16,8 +16,9 @@
 //! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
 //! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
 //!
-//! The brightest 0.4 % of the pixels count as no brighter than the next (`Film::brightest`): a lamp smaller than a
-//! pixel is met by chance, and would be nearly all of the noise, and of the mean. The filter spreads it over some fifty.
+//! The brightest 0.4 % of the pixels count as no brighter than the next ([`brightest`]): a lamp smaller than a
+//! pixel is met by chance, and would be nearly all of the noise, and of the mean. The filter spreads it over some
+//! fifty of them.
 //!
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
 //! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
@@ -85,6 +86,30 @@ fn shortened(x: f32) -> f32 {
     f32::from_bits(x.to_bits().saturating_add(0x80) & !0xff)
 }
 
+/// The luminance that one pixel of [`SHARE`] is brighter than, to a hundredth of itself. Infinite where there are
+/// fewer.
+fn brightest(pixels: impl Iterator<Item = f32>, count: f64) -> f64 {
+    // Of numbers that are not negative, the first bits are in their order.
+    const SHIFT: u32 = 16;
+    let allowed = (count / SHARE) as u32;
+    if allowed == 0 {
+        return f64::INFINITY;
+    }
+    let (mut counts, mut most) = (vec![0u32; 1 << (32 - SHIFT)], 0);
+    for luminance in pixels {
+        let bin = if luminance > 0.0 { (luminance.to_bits() >> SHIFT) as usize } else { 0 };
+        counts[bin] += 1;
+        most = most.max(bin);
+    }
+    let mut above = 0;
+    let bin = (0..=most).rev().find(|&bin| {
+        above += counts[bin];
+        above > allowed
+    });
+    // The upper end of its bin, in which the next one is.
+    bin.map_or(f64::INFINITY, |bin| f64::from(f32::from_bits(((bin as u32 + 1) << SHIFT) - 1)))
+}
+
 /// What pixels bear of a variance.
 #[derive(Clone, Copy, Default)]
 struct Borne {
@@ -119,7 +144,10 @@ impl Film {
             return;
         }
         let Octave { samples: before, differences: [last, half, _], .. } = self.octave;
-        let (light, brightest) = (self.light_count(), self.brightest());
+        let light = self.light_count();
+        // As half the samples have it, which is put down already.
+        let before = self.tiles.iter().flat_map(|tile| tile.octave);
+        let brightest = brightest(before, self.count());
         let put_down = |tile: &mut Tile| {
             let mut borne = Borne::default();
             for pixel in 0..PIXELS {
@@ -181,7 +209,10 @@ impl Film {
     /// which is more. Zero where no pixel has two samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
-        let brightest = self.brightest();
+        let light = self.light_count();
+        let pixels =
+            self.tiles.iter().flat_map(|tile| (0..PIXELS).map(move |pixel| tile.luminance(pixel, light) as f32));
+        let brightest = brightest(pixels, self.count());
         let of_pixel = |(x, y)| luminance(self.radiance(x, y)) / self.unit;
         let mean = self.pixels().map(|pixel| of_pixel(pixel).min(brightest)).sum::<f64>() / self.count();
         let independent = || {
@@ -194,32 +225,6 @@ impl Film {
             None => independent(),
         };
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
-    }
-
-    /// The luminance, in the sums' own unit and to a hundredth of itself, that one pixel of 250 is brighter than.
-    /// Infinite where there are fewer pixels.
-    fn brightest(&self) -> f64 {
-        // Of numbers that are not negative, the first bits are in their order.
-        const SHIFT: u32 = 16;
-        let allowed = (self.count() / SHARE) as u64;
-        if allowed == 0 {
-            return f64::INFINITY;
-        }
-        let light = self.light_count();
-        let mut counts = vec![0u64; 1 << (32 - SHIFT)];
-        for tile in &self.tiles {
-            for pixel in 0..PIXELS {
-                let luminance = tile.luminance(pixel, light).max(0.0) as f32;
-                counts[(luminance.to_bits() >> SHIFT) as usize] += 1;
-            }
-        }
-        let mut above = 0;
-        let bin = (0..counts.len()).rev().find(|&bin| {
-            above += counts[bin];
-            above > allowed
-        });
-        // The upper end of its bin, in which the next one is.
-        bin.map_or(f64::INFINITY, |bin| f64::from(f32::from_bits(((bin as u32 + 1) << SHIFT) - 1)))
     }
 
     /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones, and where
