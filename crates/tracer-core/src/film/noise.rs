@@ -146,8 +146,8 @@ impl Film {
         let Octave { samples: before, differences: [last, half, _], .. } = self.octave;
         let light = self.light_count();
         // As half the samples have it, which is put down already.
-        let before = self.tiles.iter().flat_map(|tile| tile.octave);
-        let brightest = brightest(before, self.count());
+        let first_half = self.tiles.iter().flat_map(|tile| tile.octave);
+        let brightest = brightest(first_half, self.count());
         let put_down = |tile: &mut Tile| {
             let mut borne = Borne::default();
             for pixel in 0..PIXELS {
