@@ -86,11 +86,11 @@ fn shortened(x: f32) -> f32 {
     f32::from_bits(x.to_bits().saturating_add(0x80) & !0xff)
 }
 
-/// The luminance that one pixel of [`SHARE`] is brighter than, to a hundredth of itself. Infinite where there are
+/// The luminance that one pixel of [`SHARE`] is brighter than, to a thirtieth of itself. Infinite where there are
 /// fewer.
 fn brightest(pixels: impl Iterator<Item = f32>, count: f64) -> f64 {
     // Of numbers that are not negative, the first bits are in their order.
-    const SHIFT: u32 = 16;
+    const SHIFT: u32 = 18;
     let allowed = (count / SHARE) as u32;
     if allowed == 0 {
         return f64::INFINITY;
@@ -147,7 +147,7 @@ impl Film {
         let light = self.light_count();
         // As half the samples have it, which is put down already.
         let first_half = self.tiles.iter().flat_map(|tile| tile.octave);
-        let brightest = brightest(first_half, self.count());
+        let brightest = if before > 0 { brightest(first_half, self.count()) } else { f64::INFINITY };
         let put_down = |tile: &mut Tile| {
             let mut borne = Borne::default();
             for pixel in 0..PIXELS {
