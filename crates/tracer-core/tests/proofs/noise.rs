@@ -70,8 +70,10 @@ fn a_lamp_smaller_than_a_pixel_is_not_all_of_the_noise() {
     };
     for samples in [16, 64, 256] {
         let [seen, hidden] = [true, false].map(|visible| film(&scene(visible), samples, 0).relative_noise());
-        // The lamp's pixels count for no more than others do.
-        assert!(seen <= 1.2 * hidden, "{samples} samples: {seen} with the lamp in view, {hidden} without");
+        // A pixel that meets it in one half of the samples alone differs by no more than the brightest, here some eight
+        // times the mean: 2 * 8/sqrt(19200) = 0.12 of the noise, and four such pixels 0.23. By its own radiance it
+        // would be 15 to 60.
+        assert!(seen <= hidden + 0.24, "{samples} samples: {seen} with the lamp in view, {hidden} without");
     }
 }
 
