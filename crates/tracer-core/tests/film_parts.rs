@@ -106,18 +106,10 @@ fn parts_of_any_split_are_the_film_of_one_machine() {
         let at_once = bytes(&render(&scene, &of_one, &Unobserved));
         let at_once = without_time(merge(&[at_once], Gaps::Refused).expect("it is whole"));
         let pixels = || (0..whole.height).flat_map(|y| (0..whole.width).map(move |x| (whole.x + x, whole.y + y)));
+        let variance = pixels().map(|(x, y)| at_once.variance(x, y)).sum::<f64>() / pixels().count() as f64;
         let luminance = |[r, g, b]: [f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        let of_pixel = |(x, y): (u32, u32)| luminance(at_once.radiance(x, y));
-        // One pixel of 250 is no brighter than the next, to a thirtieth.
-        let mut brightest: Vec<f64> = pixels().map(of_pixel).collect();
-        brightest.sort_by(|a, b| b.total_cmp(a));
-        let brightest = brightest.get(pixels().count() / 250).filter(|_| pixels().count() >= 250);
-        let limit = brightest.map_or(f64::INFINITY, |&limit| 1.015 * limit);
-        let dimmer = pixels().filter(|&pixel| of_pixel(pixel) < limit);
-        let variance = dimmer.map(|(x, y)| at_once.variance(x, y)).sum::<f64>() / pixels().count() as f64;
-        let mean = pixels().map(|pixel| of_pixel(pixel).min(limit)).sum::<f64>() / pixels().count() as f64;
-        let ratio = at_once.relative_noise() * mean / variance.sqrt();
-        assert!((ratio - 1.0).abs() < 0.03, "{ratio}");
+        let mean = pixels().map(|(x, y)| luminance(at_once.radiance(x, y))).sum::<f64>() / pixels().count() as f64;
+        assert!((at_once.relative_noise() * mean / variance.sqrt() - 1.0).abs() < 1e-9);
         for _ in 0..6 {
             let parts = random_split(whole, 13, &mut random);
             many += usize::from(parts.len() > 3);

@@ -373,8 +373,8 @@ pub struct Samples {
 /// Noise of the picture.
 #[derive(Debug, Serialize)]
 pub struct Noise {
-    /// Root mean square of the standard error of a pixel's luminance, relative to the picture's mean luminance, the
-    /// brightest 0.4 % taken for no brighter than the next; of parts that were merged an upper bound.
+    /// Root mean square of the standard error of a pixel's luminance, relative to the picture's mean luminance; of
+    /// parts that were merged an upper bound.
     pub relative: f64,
 }
 

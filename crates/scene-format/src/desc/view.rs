@@ -41,10 +41,10 @@ scene_struct! {
         /// as much; a caustic of many may be brighter.
         clamp: Option<Spanned<f64>> = None => Rule::length("a radiance").unit("in W/(sr m^2)");
         /// The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their
-        /// standard error, relative to the mean luminance, the brightest 0.4 % of them taken for no brighter than
-        /// the next. 0.01 is hardly seen. It is told by how two halves of the samples differ: 0.8 to 1.2 times the true
-        /// error (docs/noise.md). `samples` are the most. It is looked at after whole passes only, four times while the
-        /// samples double, so the picture depends on nothing else. `None`: all samples.
+        /// standard error, relative to the mean luminance, as the report has it. 0.01 is hardly seen. It is told by how
+        /// two halves of the samples differ: 0.8 to 1.2 times the true error (docs/noise.md). `samples` are the
+        /// most. It is looked at after whole passes only, four times while the samples double, so the picture depends
+        /// on nothing else. `None`: all samples.
         noise: Option<Spanned<f64>> = None => Rule::between("a relative error", 0.0, 1.0);
         /// The rendering ends when the program has run so long. `samples` are the most. `None`: all samples.
         time: Option<Spanned<f64>> = None => Rule::length("a time").unit("in seconds");

@@ -16,10 +16,6 @@
 //! h/4 at least, it is the difference between these and the first h that tells, as if the two were independent; the
 //! covariance comes in with k/h. All is summed over the pixels, so that it is right where pixels err alike, too.
 //!
-//! The brightest 0.4 % of the pixels count as no brighter than the next ([`brightest`]): a lamp smaller than a
-//! pixel is met by chance, and would be nearly all of the noise, and of the mean. The filter spreads it over some
-//! fifty of them.
-//!
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
 //! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
 //! third of such n, by Gauss. Below [`FEW`], the noise is never told as less than that of independent samples.
@@ -32,9 +28,6 @@ const FEW: f64 = 6.0;
 
 /// m of 72 pixels: they tell how fast the noise has fallen over two octaves to a sixth.
 const MANY: f64 = 24.0;
-
-/// One pixel of so many may be brighter than all others.
-const SHARE: f64 = 250.0;
 
 /// What is known of the noise from the last octave of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -86,30 +79,6 @@ fn shortened(x: f32) -> f32 {
     f32::from_bits(x.to_bits().saturating_add(0x80) & !0xff)
 }
 
-/// The luminance that one pixel of [`SHARE`] is brighter than, to a thirtieth of itself. Infinite where there are
-/// fewer.
-fn brightest(pixels: impl Iterator<Item = f32>, count: f64) -> f64 {
-    // Of numbers that are not negative, the first bits are in their order.
-    const SHIFT: u32 = 18;
-    let allowed = (count / SHARE) as u32;
-    if allowed == 0 {
-        return f64::INFINITY;
-    }
-    let (mut counts, mut most) = (vec![0u32; 1 << (32 - SHIFT)], 0);
-    for luminance in pixels {
-        let bin = if luminance > 0.0 { (luminance.to_bits() >> SHIFT) as usize } else { 0 };
-        counts[bin] += 1;
-        most = most.max(bin);
-    }
-    let mut above = 0;
-    let bin = (0..=most).rev().find(|&bin| {
-        above += counts[bin];
-        above > allowed
-    });
-    // The upper end of its bin, in which the next one is.
-    bin.map_or(f64::INFINITY, |bin| f64::from(f32::from_bits(((bin as u32 + 1) << SHIFT) - 1)))
-}
-
 /// What pixels bear of a variance.
 #[derive(Clone, Copy, Default)]
 struct Borne {
@@ -145,15 +114,12 @@ impl Film {
         }
         let Octave { samples: before, differences: [last, half, _], .. } = self.octave;
         let light = self.light_count();
-        // As half the samples have it, which is put down already.
-        let first_half = self.tiles.iter().flat_map(|tile| tile.octave);
-        let brightest = if before > 0 { brightest(first_half, self.count()) } else { f64::INFINITY };
         let put_down = |tile: &mut Tile| {
             let mut borne = Borne::default();
             for pixel in 0..PIXELS {
                 let mean = tile.luminance(pixel, light);
                 // Of the first half and of the second.
-                let difference = mean.min(brightest) - f64::from(tile.octave[pixel]).min(brightest);
+                let difference = mean - f64::from(tile.octave[pixel]);
                 borne.add(4.0 * difference * difference);
                 tile.octave[pixel] = shortened(mean as f32);
             }
@@ -203,23 +169,17 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// Root mean square over the pixels of their standard error, relative to the mean luminance, the brightest
-    /// 0.4 % of them taken for no brighter than the next: the noise of the picture as one number. It is seen from
-    /// how much pictures of other samples differ; of parts that were merged it is what independent samples would have,
-    /// which is more. Zero where no pixel has two samples: nobody can tell.
+    /// Root mean square over the pixels of their standard error, relative to the mean luminance: the noise of the
+    /// picture as one number. It is seen from how much pictures of other samples differ; of parts that were merged it
+    /// is what independent samples would have, which is more. Zero where no pixel has two samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
-        let light = self.light_count();
-        let pixels =
-            self.tiles.iter().flat_map(|tile| (0..PIXELS).map(move |pixel| tile.luminance(pixel, light) as f32));
-        let brightest = brightest(pixels, self.count());
-        let of_pixel = |(x, y)| luminance(self.radiance(x, y)) / self.unit;
-        let mean = self.pixels().map(|pixel| of_pixel(pixel).min(brightest)).sum::<f64>() / self.count();
+        let mean = self.pixels().map(|(x, y)| luminance(self.radiance(x, y)) / self.unit).sum::<f64>() / self.count();
         let independent = || {
-            let dimmer = self.pixels().filter(|&pixel| of_pixel(pixel) < brightest);
-            dimmer.map(|(x, y)| self.variance(x, y) / self.unit / self.unit).sum::<f64>() / self.count()
+            let variance = |(x, y)| self.variance(x, y) / self.unit / self.unit;
+            self.pixels().map(variance).sum::<f64>() / self.count()
         };
-        let variance = match self.seen_variance(brightest) {
+        let variance = match self.seen_variance() {
             Some((seen, pixels)) if pixels >= FEW => seen,
             Some((seen, _)) => seen.max(independent()),
             None => independent(),
@@ -234,7 +194,7 @@ impl Film {
     }
 
     /// Mean variance of the pixels in the sums' own unit, as the octaves tell it, and how many pixels bear it.
-    fn seen_variance(&self, brightest: f64) -> Option<(f64, f64)> {
+    fn seen_variance(&self) -> Option<(f64, f64)> {
         let Octave { samples, differences, pixels } = self.octave;
         if differences[0] <= 0.0 || self.has_gaps {
             return None;
@@ -255,8 +215,7 @@ impl Film {
                 Some(factor) => {
                     // From the mean of all to that of those which came after.
                     let times = f64::from(n) / f64::from(n - samples);
-                    let before = f64::from(tile.octave[pixel]).min(brightest);
-                    let difference = (tile.luminance(pixel, light).min(brightest) - before) * times;
+                    let difference = (tile.luminance(pixel, light) - f64::from(tile.octave[pixel])) * times;
                     borne.add(factor * difference * difference);
                 }
                 None => by_octave += of_octave * f64::from(samples) / f64::from(n.max(1)),
