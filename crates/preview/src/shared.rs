@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 use tokio::sync::watch;
-use tracer_core::{Film, Scene};
+use tracer_core::{FewNoisy, Film, Scene};
 
 /// Locks; what a thread that panicked has left is whole, since all that is stored is stored at once.
 pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -83,6 +83,16 @@ pub struct Stage {
     pub scene: Scene,
 }
 
+/// How noisy a frame is.
+#[derive(Clone, Copy)]
+pub struct FrameNoise {
+    /// Its number.
+    pub frame: u64,
+    /// Relative to its mean luminance.
+    pub relative: f64,
+    pub few: Option<FewNoisy>,
+}
+
 /// A picture, as far as it is.
 pub struct Frame {
     /// Counts the frames.
@@ -120,8 +130,7 @@ pub struct State {
     pub told: Vec<Told>,
     pub stage: Option<Arc<Stage>>,
     pub frame: Option<Arc<Frame>>,
-    /// Noise of a frame, by its number.
-    pub noise: Option<(u64, f64)>,
+    pub noise: Option<FrameNoise>,
     /// The camera that stands in the file, as it was read last.
     pub written: Option<Pose>,
     /// The file's contents then.

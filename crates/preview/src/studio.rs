@@ -3,7 +3,7 @@
 
 use crate::files::{Fingerprint, News, Stamp, fingerprint};
 use crate::options::Options;
-use crate::shared::{Frame, Orders, Phase, Pose, Shared, Stage, State, lock};
+use crate::shared::{Frame, FrameNoise, Orders, Phase, Pose, Shared, Stage, State, lock};
 use crate::told::{Told, file_of, told};
 use scene_format::codes;
 use scene_format::diagnostic::{Source, keep_first};
@@ -59,8 +59,9 @@ fn tell_noise(shared: &Shared, frames: &mpsc::Receiver<Arc<Frame>>) {
         while let Ok(later) = frames.try_recv() {
             frame = later;
         }
-        let noise = frame.film.relative_noise();
-        shared.change(|state| state.noise = Some((frame.number, noise)));
+        let noise =
+            FrameNoise { frame: frame.number, relative: frame.film.relative_noise(), few: frame.film.few_noisy() };
+        shared.change(|state| state.noise = Some(noise));
     }
 }
 

@@ -8,6 +8,7 @@
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
 use crate::render::apply_edits;
+use crate::syntax::declarations;
 use std::ops::Range;
 
 /// With more faults than this a file is rubbish.
@@ -25,6 +26,9 @@ const LONG: usize = 1 << 16;
 const LINES: usize = 4;
 const LINE_BYTES: usize = 400;
 
+/// What a word does not hold.
+const BETWEEN_WORDS: [char; 12] = [' ', '\n', '\t', ',', ':', '=', '(', ')', '[', ']', '{', '}'];
+
 /// Whether a text that makes so many items may be read again.
 pub(crate) fn is_cheap(repeated: u64) -> bool {
     repeated < (BUDGET / BYTES_OF_AN_ITEM) as u64
@@ -33,6 +37,10 @@ pub(crate) fn is_cheap(repeated: u64) -> bool {
 /// Leaves out what follows from other faults. `read` gives the errors of another text, and how many items it makes.
 pub(crate) fn leave_out(text: &str, diagnostics: &mut Vec<Diagnostic>, read: impl Fn(&str) -> (Vec<Diagnostic>, u64)) {
     leave_out_conflicts(diagnostics);
+    join_unclosed(diagnostics);
+    leave_out_ends(diagnostics);
+    leave_out_last_word(text, diagnostics);
+    leave_out_declared(text, diagnostics);
     let errors: Vec<Diagnostic> =
         diagnostics.iter().filter(|fault| fault.severity == Severity::Error).cloned().collect();
     if errors.len() < 2 || errors.len() > MANY || text.len() > LONG {
@@ -65,6 +73,103 @@ pub(crate) fn leave_out(text: &str, diagnostics: &mut Vec<Diagnostic>, read: imp
         !error || !follows[index - 1]
     });
     diagnostics.extend(root);
+}
+
+/// Brackets that are all missing at one place are one fault, and that a value is missing there follows.
+fn join_unclosed(diagnostics: &mut Vec<Diagnostic>) {
+    let place = |fault: &Diagnostic| match fault.labels.as_slice() {
+        [label] if fault.code == codes::UNCLOSED_BRACKET && fault.expected.len() == 3 => Some(label.span),
+        _ => None,
+    };
+    let mut places: Vec<(Span, usize)> = Vec::new();
+    let mut joined: Vec<(usize, String)> = Vec::new();
+    let mut follows = vec![false; diagnostics.len()];
+    for (index, fault) in diagnostics.iter().enumerate() {
+        let Some(at) = place(fault) else { continue };
+        let bracket = fault.expected.trim_matches('`').to_owned();
+        match places.iter().find(|(other, _)| *other == at) {
+            None => places.push((at, joined.len())),
+            Some(&(_, first)) => {
+                // The innermost is closed first.
+                joined[first].1.insert_str(0, &bracket);
+                follows[index] = true;
+                continue;
+            }
+        }
+        joined.push((index, bracket));
+    }
+    for (at, first) in places {
+        let (index, brackets) = &joined[first];
+        if brackets.len() > 1 {
+            let fault = &mut diagnostics[*index];
+            fault.message = format!("this bracket and {} within it are never closed", brackets.len() - 1);
+            fault.expected = format!("`{brackets}`");
+            fault.labels[0].text = format!("`{brackets}` is missing before this");
+            let missing = |other: &Diagnostic| other.code == codes::MISSING_VALUE && other.span.start == at.start;
+            diagnostics.iter().zip(&mut follows).for_each(|(other, follows)| *follows |= missing(other));
+        }
+    }
+    let mut follows = follows.into_iter();
+    diagnostics.retain(|_| follows.next() != Some(true));
+}
+
+/// Where the first object of several was taken for the whole file, that it ends too early follows.
+fn leave_out_ends(diagnostics: &mut Vec<Diagnostic>) {
+    let alone =
+        |fault: &Diagnostic| fault.code == codes::UNKNOWN_VARIANT && fault.message.starts_with("an object stands");
+    if diagnostics.iter().any(alone) {
+        diagnostics.retain(|fault| fault.code != codes::TEXT_AFTER_END);
+    }
+}
+
+/// Of a file that ends within a bracket the last word may be half of one.
+fn leave_out_last_word(text: &str, diagnostics: &mut Vec<Diagnostic>) {
+    let end = text.trim_end().len();
+    let ends = |fault: &Diagnostic| {
+        fault.code == codes::UNCLOSED_BRACKET
+            && fault.labels.is_empty()
+            && fault.span.source == 0
+            && (fault.hint.ends_with("the file ends before that") || fault.span.start as usize >= end)
+    };
+    if !diagnostics.iter().any(ends) {
+        return;
+    }
+    let within = |fault: &Diagnostic| {
+        let start = (fault.span.start as usize).min(end);
+        let last = fault.span.source == 0 && text.get(start..end).is_some_and(|rest| !rest.contains(BETWEEN_WORDS));
+        last && fault.severity == Severity::Error && fault.code != codes::UNCLOSED_BRACKET
+    };
+    diagnostics.retain(|fault| !within(fault));
+}
+
+/// A value whose name stands in no `vars` is told once, not at each place where it is used.
+fn leave_out_declared(text: &str, diagnostics: &mut Vec<Diagnostic>) {
+    let mut told: Vec<String> = Vec::new();
+    // `for i in range(8):` has neither a comma behind it, nor is its `i` known.
+    let loops: Vec<Span> = diagnostics
+        .iter()
+        .filter(|fault| fault.code == codes::OTHER_LANGUAGE && fault.message.starts_with("there are no loops"))
+        .map(|fault| fault.span)
+        .collect();
+    for span in &loops {
+        let head = text.get(span.start as usize..span.end as usize).unwrap_or("");
+        told.extend(head.split_whitespace().nth(1).map(|name| name.trim_matches(['(', ',']).to_owned()));
+    }
+    let behind = |fault: &Diagnostic| {
+        let mut loops = loops.iter();
+        fault.code == codes::MISSING_COMMA
+            && loops
+                .any(|span| span.source == fault.span.source && (span.end..span.end + 3).contains(&fault.span.start))
+    };
+    diagnostics.retain(|fault| match declarations::name_in_way(&fault.hint) {
+        _ if behind(fault) => false,
+        Some(name) if told.iter().any(|other| other == name) => false,
+        Some(name) => {
+            told.push(name.to_owned());
+            true
+        }
+        None => true,
+    });
 }
 
 /// That a table was written before follows, where that table is told to be none.

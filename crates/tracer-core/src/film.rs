@@ -33,6 +33,7 @@ use layers::{FilmLayer, TileLayers};
 use mattes::TileMattes;
 pub use mattes::{MatteOf, MattesKept};
 pub use merge::{Gap, Gaps, MergeError, faults};
+pub use noise::FewNoisy;
 use noise::Octave;
 pub use part::{Part, Split};
 pub use plan::{NoPlan, Plan};

@@ -60,7 +60,7 @@ pub use engine::{
 };
 pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
-pub use film::{Gap, Gaps, MergeError, NoPlan, Part, Plan, Split, faults as film_faults};
+pub use film::{FewNoisy, Gap, Gaps, MergeError, NoPlan, Part, Plan, Split, faults as film_faults};
 pub use film::{MatteOf, MattesKept};
 pub use marks::{Eye, MarkSeen, marks};
 pub use mattes::{MatteImage, Mattes, mattes_kept, object_name};

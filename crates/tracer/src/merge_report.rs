@@ -150,7 +150,7 @@ impl MergeReport {
             mean_path_length: (rays.camera.saturating_add(rays.scattered)) as f64 / rays.camera.max(1) as f64,
             samples: MergedSamples { total: rays.camera, dropped: counters.dropped, beyond: counters.beyond },
             rays,
-            noise: Noise { relative: film.relative_noise() },
+            noise: Noise::of(film),
             denoise,
             clamped: film.clamped().map(ClampedReport::from),
             memory: MergedMemory { peak: memory::peak(), film: film.bytes() as u64 },

@@ -6,10 +6,17 @@ use crate::shell::Shell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
-use tracer_core::{Crop, Film, FilmState, Observer, Progress};
+use tracer_core::{Crop, FewNoisy, Film, FilmState, Observer, Progress};
+
+/// Samples from which on a pixel's noise is more than chance.
+const TOLD_FROM: u32 = 64;
+
+/// What makes few pixels that noisy, mostly.
+pub const SMALL: &str =
+    "a light that is smaller than a pixel does that: camera_visible: false takes it out of the picture";
 
 /// Watches a rendering: shows how far it is, ends it on Ctrl-C, and has its state kept.
 pub struct Watch<'a> {
@@ -23,6 +30,8 @@ pub struct Watch<'a> {
     before: u64,
     /// Camera samples that a noise goal will take, as far as one can tell.
     for_noise: AtomicU64,
+    /// It was said that few pixels are left to become less noisy.
+    few_told: AtomicBool,
     pace: Mutex<Pace>,
     /// Seconds left, as far as one can tell.
     left: Arc<AtomicU64>,
@@ -63,7 +72,8 @@ impl<'a> Watch<'a> {
         let lines = (bar.is_none() && shell.is_told()).then(|| Mutex::new(Lines { last: begun, tenths: 0 }));
         let (goals, for_noise) = (Goals::default(), AtomicU64::new(u64::MAX));
         let pace = Mutex::default();
-        Watch { bar, lines, shell: *shell, begun, checkpoints: None, goals, before: 0, for_noise, pace, left }
+        let few_told = AtomicBool::new(false);
+        Watch { bar, lines, shell: *shell, begun, checkpoints: None, goals, before: 0, for_noise, few_told, pace, left }
     }
 
     /// The same, where so many samples were done before, and the state is kept.
@@ -106,6 +116,20 @@ impl<'a> Watch<'a> {
         self.left.store(left.map_or(u64::MAX, |left| left.as_secs_f64().round() as u64), Ordering::Relaxed);
     }
 
+    /// Says once that the goal is reached but for a few pixels, which may take the rendering to its last sample.
+    fn tell_few(&self, film: &Film, goal: f64) {
+        if !self.shell.is_told() || *film.samples().start() < TOLD_FROM || self.few_told.load(Ordering::Relaxed) {
+            return;
+        }
+        let Some(few) = film.few_noisy().filter(|few| few.rest <= goal && film.relative_noise() > goal) else { return };
+        self.few_told.store(true, Ordering::Relaxed);
+        let line = format!("noise: {}, which is good enough; {SMALL}", few_in_words(few));
+        match &self.bar {
+            Some(bar) => bar.suspend(|| self.shell.say(&line)),
+            None => self.shell.say(&line),
+        }
+    }
+
     /// Takes the bar away.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
@@ -142,6 +166,7 @@ impl Observer for Watch<'_> {
         let Crop { width, height, .. } = film.crop();
         let done = f64::from(width) * f64::from(height) * f64::from(*film.samples().start());
         self.for_noise.store((done * times) as u64, Ordering::Relaxed);
+        self.tell_few(film, goal);
     }
 
     fn wants_state(&self) -> bool {
@@ -220,17 +245,23 @@ fn time(duration: Duration) -> String {
     }
 }
 
-/// How noisy a picture is, and what it takes to be less so: `noise 4 %, about 1000 samples for 1 %`. `None`: it has no
-/// noise, or one cannot tell. Its square falls at this rate with the number of samples.
+/// How noisy a picture of so many samples is, and what it takes to be less so; or who bears it, where few pixels do.
+pub fn noise_of(film: &Film, samples: u32) -> Option<String> {
+    let relative = film.relative_noise();
+    let line = noise(relative, film.noise_rate(), samples)?;
+    Some(match film.few_noisy() {
+        Some(few) => format!("noise {} %: {}", shown(100.0 * relative), few_in_words(few)),
+        None => line,
+    })
+}
+
+/// `noise 4 %, about 1000 samples for 1 %`. `None`: there is no noise, or one cannot tell. Its square falls at this rate
+/// with the number of samples.
 pub fn noise(relative: f64, rate: f64, samples: u32) -> Option<String> {
     if !(relative.is_finite() && relative > 1e-6) || samples < 2 {
         return None;
     }
     let percent = 100.0 * relative;
-    let shown = |percent: f64| {
-        let digits = if percent >= 10.0 { 0 } else { 1 };
-        format!("{percent:.digits$}").trim_end_matches(".0").to_owned()
-    };
     let mut line = format!("noise {} %", shown(percent));
     // The next power of ten that is well below.
     if let Some(goal) = [10.0, 1.0, 0.1].into_iter().find(|goal| *goal * 1.5 <= percent) {
@@ -243,6 +274,23 @@ pub fn noise(relative: f64, rate: f64, samples: u32) -> Option<String> {
         }
     }
     Some(line)
+}
+
+/// `3 pixels bear it, 80,12 most; the others have 1.2 % at most`
+fn few_in_words(FewNoisy { pixels, worst: [x, y], rest }: FewNoisy) -> String {
+    let rest = shown(100.0 * rest);
+    match pixels {
+        1 => format!("one pixel bears it, {x},{y}; the others have {rest} % at most"),
+        _ => format!("{pixels} pixels bear it, {x},{y} most; the others have {rest} % at most"),
+    }
+}
+
+/// A percentage as people say it.
+fn shown(percent: f64) -> String {
+    match percent {
+        p if p >= 10.0 => format!("{p:.0}"),
+        p => format!("{p:.1}").trim_end_matches(".0").to_owned(),
+    }
 }
 
 /// `12.3 M samples/s`

@@ -4,7 +4,7 @@ use crate::cache::CacheReport;
 use crate::denoising::DenoiseReport;
 use scene_format::desc::Render;
 use serde::Serialize;
-use tracer_core::{Clamped, Eye, Film, MarkSeen, Stage, Statistics, TreeWork};
+use tracer_core::{Clamped, Eye, FewNoisy, Film, MarkSeen, Stage, Statistics, TreeWork};
 
 /// Changes whenever a field changes its meaning or goes; new fields may come at any time.
 pub const VERSION: u32 = 1;
@@ -376,6 +376,27 @@ pub struct Noise {
     /// Root mean square of the standard error of a pixel's luminance, relative to the picture's mean luminance; of
     /// parts that were merged an upper bound.
     pub relative: f64,
+    /// The few pixels that bear nearly all of it; null where there are none such.
+    pub few: Option<Few>,
+}
+
+/// Few pixels that bear nearly all of the noise.
+#[derive(Debug, Serialize)]
+pub struct Few {
+    /// How many they are.
+    pub pixels: usize,
+    /// The one that bears most: column and row.
+    pub worst: [u32; 2],
+    /// The noise of all others, relative to their mean luminance; an upper bound.
+    pub rest: f64,
+}
+
+impl Noise {
+    /// The noise of a film.
+    pub fn of(film: &Film) -> Noise {
+        let of = |FewNoisy { pixels, worst, rest }| Few { pixels, worst, rest };
+        Noise { relative: film.relative_noise(), few: film.few_noisy().map(of) }
+    }
 }
 
 /// What there is to be hit.

@@ -85,6 +85,8 @@ struct ShownFrame {
     size: [u32; 2],
     samples: u32,
     noise: Option<f64>,
+    /// Pixels that bear nearly all of it, where they are few, and the noise of the others.
+    few: Option<(usize, f64)>,
 }
 
 #[derive(Serialize)]
@@ -96,16 +98,15 @@ struct ShownLook {
 impl<'s> Shown<'s> {
     fn of(state: &'s State, app: &App) -> Self {
         let shared = &app.shared;
+        let noise = |frame: u64| state.noise.filter(|noise| noise.frame == frame && noise.relative > 0.0);
         let frame = state.frame.as_deref().map(|frame| ShownFrame {
             number: frame.number,
             stage: frame.stage,
             draft: frame.draft,
             size: frame.size,
             samples: frame.samples,
-            noise: state
-                .noise
-                .filter(|(number, noise)| *number == frame.number && *noise > 0.0)
-                .map(|(_, noise)| noise),
+            noise: noise(frame.number).map(|noise| noise.relative),
+            few: noise(frame.number).and_then(|noise| noise.few).map(|few| (few.pixels, few.rest)),
         });
         let look = state.stage.as_ref().map(|stage| stage.scene.look);
         Shown {

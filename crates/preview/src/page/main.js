@@ -106,8 +106,16 @@ function figures(state) {
     if (speed > 0 && Number.isFinite(speed)) parts.push(rate(speed));
     if (running && speed > 0) parts.push(`${time((state.samples_total - state.samples_done) / speed)} left`);
   }
-  if (frame?.noise && frame.samples > 1) parts.push(`noise ${Number((frame.noise * 100).toPrecision(2))} %`);
+  if (frame?.noise && frame.samples > 1) parts.push(noise(frame));
   return parts.join(", ");
+}
+
+// Of a lamp smaller than a pixel the noise is nearly all: that of the others says more.
+function noise({ noise, few }) {
+  const percent = (relative) => `${Number((relative * 100).toPrecision(2))} %`;
+  if (!few) return `noise ${percent(noise)}`;
+  const [pixels, rest] = few;
+  return `noise ${percent(rest)} but for ${pixels === 1 ? "one pixel" : `${pixels} pixels`}`;
 }
 
 function render(state) {

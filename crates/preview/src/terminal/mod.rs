@@ -380,7 +380,7 @@ impl Session {
             self.first = [frame.stage, frame.number];
         }
         // It comes a frame or two later.
-        let noise = state.noise.filter(|(number, noise)| *noise > 0.0 && *number >= self.first[1]);
+        let noise = state.noise.filter(|noise| noise.relative > 0.0 && noise.frame >= self.first[1]);
         let name = shared.options.scene.file_name().unwrap_or_default().to_string_lossy();
         let status = Status {
             name: &name,
@@ -392,7 +392,8 @@ impl Session {
             done: shared.done.load(Ordering::Relaxed),
             total: shared.total.load(Ordering::Relaxed),
             seconds: state.seconds(),
-            noise: noise.map(|(_, noise)| noise),
+            noise: noise.map(|noise| noise.few.map_or(noise.relative, |few| few.rest)),
+            noisier: noise.and_then(|noise| noise.few).map_or(0, |few| few.pixels),
             exposure: self.exposure,
             moved: !state.moves.is_empty(),
             told: state.told.iter().filter(|told| (told.severity == "error") == (state.phase == Phase::Wrong)).count(),

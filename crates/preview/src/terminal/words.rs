@@ -19,6 +19,8 @@ pub struct Status<'a> {
     pub total: u64,
     pub seconds: f64,
     pub noise: Option<f64>,
+    /// Pixels that this leaves out, since nearly all noise is theirs.
+    pub noisier: usize,
     /// Stops beside the scene's.
     pub exposure: f64,
     /// The camera is not where the file has it.
@@ -62,7 +64,12 @@ impl Status<'_> {
             parts.push((4, rate(speed)));
         }
         if let Some(noise) = self.noise {
-            parts.push((3, format!("noise {} %", percent(noise))));
+            let but_for = match self.noisier {
+                0 => String::new(),
+                1 => " but for one pixel".to_owned(),
+                pixels => format!(" but for {pixels} pixels"),
+            };
+            parts.push((3, format!("noise {} %{but_for}", percent(noise))));
         }
         if rendering && !self.paused && speed.is_finite() && speed > 0.0 {
             parts.push((2, format!("{} left", time(self.total.saturating_sub(self.done) as f64 / speed))));
@@ -229,6 +236,7 @@ mod tests {
             total: 64_000_000,
             seconds: 4.0,
             noise: Some(0.0213),
+            noisier: 0,
             exposure: 0.0,
             moved: false,
             told: 0,
@@ -258,6 +266,7 @@ mod tests {
         };
         assert!(at(|s| s.paused = true).contains("paused  12/64 samples") && !at(|s| s.paused = true).contains("left"));
         assert!(at(|s| s.samples = None).contains("draft"));
+        assert!(at(|s| s.noisier = 3).contains("  noise 2.1 % but for 3 pixels  "));
         assert!(at(|s| s.phase = Phase::Done).contains("  12 samples  3.0 M samples/s  noise 2.1 %  done in 4.0 s"));
         let wrong = at(|s| (s.phase, s.told) = (Phase::Wrong, 2));
         assert!(wrong.contains("2 errors") && !wrong.contains("samples/s"), "{wrong}");

@@ -2,7 +2,7 @@
 
 use super::hover::{default_text, of_field};
 use super::names;
-use super::place::{Expected, Step, expected, way};
+use super::place::{Expected, Step, Way, expected, way};
 use crate::expression::{function, functions};
 use crate::files::FileKind;
 use crate::read::{PICK, REPEAT, expected as takes};
@@ -60,7 +60,7 @@ pub fn complete(text: &str, syntax: Syntax, byte: usize) -> Completions {
     }
     let begun = &text[way.word.clone()];
     if way.quoted.is_some() && begun.trim_start().starts_with('=') {
-        return in_expression(text, syntax, byte, begun);
+        return in_expression(text, syntax, byte, begun, &way);
     }
     let Some(expected) = expected(&way, syntax) else { return out };
     if way.in_header {
@@ -216,14 +216,7 @@ fn kinds(kind: Type, each: &mut dyn FnMut(&'static EnumDef)) {
 }
 
 // Long: one arm for every type of the language.
-fn value(
-    text: &str,
-    syntax: Syntax,
-    kind: Type,
-    field: Option<&'static FieldDef>,
-    way: &super::place::Way,
-    out: &mut Completions,
-) {
+fn value(text: &str, syntax: Syntax, kind: Type, field: Option<&'static FieldDef>, way: &Way, out: &mut Completions) {
     let quoted = way.quoted.is_some();
     if let Some(file) = field.and_then(|field| field.rule.file)
         && quoted
@@ -346,23 +339,26 @@ fn with_fields(name: &str, def: &StructDef, syntax: Syntax) -> String {
 }
 
 /// Within a text that begins with `=`: values and functions.
-fn in_expression(text: &str, syntax: Syntax, byte: usize, begun: &str) -> Completions {
+fn in_expression(text: &str, syntax: Syntax, byte: usize, begun: &str, way: &Way) -> Completions {
     let letters = begun.bytes().rev().take_while(|byte| *byte == b'_' || byte.is_ascii_alphanumeric()).count();
+    let range = byte - letters..byte;
+    let before = &begun[..begun.len() - letters];
+    let name = |name: &str, detail: &str| Completion { kind: CompletionKind::Name, ..plain(name, detail) };
+    if let Some(of) = before.strip_suffix('.').filter(|of| !of.ends_with(|c: char| c.is_ascii_digit())) {
+        // Of a point or a colour; `1.` is a number.
+        let parts = ["x", "y", "z", "r", "g", "b"].map(|part| name(part, "one of its three numbers"));
+        let items = if of.ends_with(['=', ' ']) { Vec::new() } else { parts.into() };
+        return Completions { range, items, files: None };
+    }
     let vars = names::defined(text, syntax).vars;
-    let mut items: Vec<Completion> = vars
-        .into_iter()
-        .map(|name| Completion {
-            kind: CompletionKind::Name,
-            detail: "a value of this scene".to_owned(),
-            ..plain(&name, "")
-        })
-        .collect();
+    let mut items: Vec<Completion> = vars.iter().map(|var| name(var, "a value of this scene")).collect();
     let told = [("frame", "the number of the frame"), ("time", "seconds from the first frame"), ("pi", "a number")];
-    items.extend(told.map(|(name, detail)| Completion {
-        kind: CompletionKind::Name,
-        detail: detail.to_owned(),
-        ..plain(name, "")
-    }));
+    items.extend(told.map(|(word, detail)| name(word, detail)));
+    let repeated =
+        way.steps.iter().any(|step| matches!(step, Step::Kind(kind) | Step::Key(kind) if kind == REPEAT.name));
+    if repeated && !items.iter().any(|item| item.label == "i") {
+        items.push(name("i", "the number of the copy, from 0, where Repeat has no `index`"));
+    }
     items.extend(functions().map(|(name, call)| Completion {
         kind: CompletionKind::Function,
         detail: call.to_owned(),
@@ -370,5 +366,5 @@ fn in_expression(text: &str, syntax: Syntax, byte: usize, begun: &str) -> Comple
         snippet: format!("{name}($0)"),
         ..plain(name, "")
     }));
-    Completions { range: byte - letters..byte, items, files: None }
+    Completions { range, items, files: None }
 }

@@ -356,6 +356,19 @@ fn half_written_texts_are_looked_at() {
 }
 
 #[test]
+fn expressions_are_completed_with_what_is_known_there() {
+    let scene = |inner: &str| format!("Scene(vars: {{ \"lamp\": (0, 3, 0) }}, objects: [{inner}])");
+    let ball = |center: &str| format!("Sphere(center: (0, \"={center}\", 0), radius: 1)");
+    offers(&scene(&ball("la|")), Ron, &["lamp", "time", "sin"], &["i", "x"]);
+    offers(&scene(&ball("2 + lamp.|")), Ron, &["x", "y", "z", "r"], &["lamp", "sin"]);
+    offers(&scene(&ball("lamp[0].x|")), Ron, &["x"], &["sin"]);
+    offers(&scene(&ball("1.|")), Ron, &["lamp", "sin"], &["x"]);
+    offers(&scene(&format!("Repeat(count: 3, items: [{}])", ball("|"))), Ron, &["i", "lamp"], &["x"]);
+    let toml = "[[objects]]\n[objects.Repeat]\ncount = 3\nitems = [{ Sphere = { center = [\"=|\", 0, 0] } }]\n";
+    offers(toml, Toml, &["i"], &[]);
+}
+
+#[test]
 fn words_of_expressions_are_explained() {
     let text = "Scene(vars: { \"h\": 0.75, \"w\": \"=2*h\" }, objects: [Repeat(count: 2, index: \"k\", items: [\
                 Sphere(center: (\"=k\", \"=w\", \"=sin(frame)\"), radius: 1)])])";

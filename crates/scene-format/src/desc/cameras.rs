@@ -52,12 +52,13 @@ impl Words for CameraChoice {
                 let name = reader.text(item, at)?;
                 Some(CameraChoice::Named(Spanned { value: (*name).into(), span: item.span() }))
             }
-            Kind::Word | Kind::List => {
+            Kind::Word | Kind::List if !item.lexeme().starts_with("[[") => {
                 // A name without its quotes.
                 let quoted = (item.kind() == Kind::Word && reader.knows_camera(&item.text()))
                     .then(|| format!("\"{}\"", item.text()));
                 reader.wrong_kind(item, at.noun, &expected_for(at, item), quoted)
             }
+            Kind::List if item.lexeme().starts_with("[[") => Camera::read(reader, item, at).and(None),
             // Told when the whole scene has been read.
             _ if are_cameras(item) => None,
             _ => Camera::read(reader, item, at).map(|camera| CameraChoice::Written(Box::new(camera))),

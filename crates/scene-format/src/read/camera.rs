@@ -62,6 +62,8 @@ pub(crate) fn are_cameras(item: Item<'_, '_>) -> bool {
     let mut fields = item.fields().peekable();
     item.kind() == Kind::Map
         && fields.peek().is_some()
+        // One with its kind before its fields, as objects have it.
+        && fields.peek().is_none_or(|(key, _)| key.text() != "Camera")
         && fields.all(|(key, value)| !is_field(&key.text()) && is_camera(value))
 }
 

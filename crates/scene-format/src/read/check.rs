@@ -62,7 +62,9 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
         None => {
             let mistyped = root.fields().take(super::LOOK_AT).any(|(key, _)| {
                 let key = key.text();
-                Scene::DEF.field(&key).is_none() && suggest::nearest(&key, super::names(&Scene::DEF)) == Some("objects")
+                Object::DEF.variant(&key).is_some()
+                    || Scene::DEF.field(&key).is_none()
+                        && suggest::nearest(&key, super::names(&Scene::DEF)) == Some("objects")
             });
             (!no_root && !mistyped && !root.is_damaged() && syntax_errors == 0).then(|| root.head())
         }

@@ -1,6 +1,6 @@
 //! Colours and points in the ways of other programs that are one fault with one way: bytes, alpha, texts of numbers.
 
-use super::elsewhere::{Fields, numbers};
+use super::elsewhere::{Fields, numbers, vector_elsewhere};
 use super::value::{before_unit, expected_for, hex_color, is_picture};
 use super::{Reader, plain, shortened};
 use crate::codes;
@@ -50,16 +50,33 @@ pub(super) fn color(value: Item<'_, '_>) -> Option<String> {
     }
 }
 
-/// The field of a material for the colour of a mesh: what is written is no list of colours of its points.
-pub(super) fn of_mesh(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<String> {
-    if def.name != "Mesh" || !matches!(name, "color" | "colour" | "albedo" | "rgb" | "diffuse") {
-        return None;
-    }
-    let color = color(value)?;
-    let material = match value.syntax() {
+/// The names of a surface's colour elsewhere.
+const COLORS: [&str; 9] =
+    ["color", "colour", "albedo", "rgb", "diffuse", "base_color", "texture", "map", "diffuse_color"];
+
+/// `{ color: (1, 0, 0) }` where a material stands: the one that it is.
+pub(super) fn color_as_material(item: Item<'_, '_>, def: &'static EnumDef) -> Option<String> {
+    let mut fields = item.fields();
+    let (key, value) = fields.next().filter(|_| fields.next().is_none() && def.noun == "material")?;
+    // What has a header of its own in TOML is not in one piece.
+    let whole = item.lexeme().starts_with(['{', '(']);
+    let color = color(value).filter(|_| whole && COLORS.contains(&&*key.text()))?;
+    Some(diffuse(&color, item.syntax()))
+}
+
+fn diffuse(color: &str, syntax: Syntax) -> String {
+    match syntax {
         Syntax::Ron => format!("Diffuse(albedo: {color})"),
         syntax => syntax.of_toml(format!("{{ Diffuse = {{ albedo = {color} }} }}")).into_owned(),
-    };
+    }
+}
+
+/// The field of a material for the colour of an object: what is written is no list of colours of points.
+pub(super) fn color_of_object(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<String> {
+    if def.field("material").is_none() || def.field(name).is_some() || !COLORS.contains(&name) {
+        return None;
+    }
+    let material = diffuse(&color(value)?, value.syntax());
     Some(format!("{}{material}", Fields(value.syntax()).name("material")))
 }
 
@@ -124,8 +141,14 @@ pub(super) fn without_alpha(item: Item<'_, '_>, at: &FieldDef, right: usize) -> 
     opaque.then(|| if item.syntax() == Syntax::Ron { format!("({inner})") } else { format!("[{inner}]") })
 }
 
+/// What is written here for a value in the brackets of another kind.
+pub(super) fn in_other_brackets(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    let per_axis = matches!(at.kind.resolved(), Type::OneOf([Type::Number, Type::Vector]));
+    in_braces(item, at).or_else(|| vector_elsewhere(item, at, 3).filter(|_| per_axis))
+}
+
 /// `{ "h": 2 }` for `(h: 2)`, names with their values in the brackets of fields.
-pub(super) fn in_braces(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+fn in_braces(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
     if !matches!(at.kind, Type::Map(_))
         || item.kind() != Kind::Struct
         || item.name().is_some()

@@ -1,9 +1,8 @@
 //! Values as other programs and languages write them, and how they are written here: `vec3(0, 1, 6)`, `material: red`.
 
 use super::Reader;
-use super::colors_elsewhere::{numbers_in_text, of_mesh};
+use super::colors_elsewhere::{color_of_object, numbers_in_text};
 use super::shape_fields::one_ring;
-use super::transforms_elsewhere::rotation_as_field;
 use super::value::{hex_color, is_picture};
 use crate::codes;
 use crate::css_colors::named_color;
@@ -149,6 +148,18 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
     }
 }
 
+/// `position.x = 0` and so on, a line for each number in TOML: what to write.
+pub(super) fn dotted(item: Item<'_, '_>, at: &FieldDef, count: usize) -> Option<String> {
+    if item.syntax() != Syntax::Toml || item.kind() != Kind::Map || item.lexeme().starts_with('{') {
+        return None;
+    }
+    let numbers = match count {
+        2 => fields_named(item, ["x", "y"]).map(Vec::from),
+        _ => fields_named(item, ["x", "y", "z"]).or_else(|| fields_named(item, ["r", "g", "b"])).map(Vec::from),
+    };
+    numbers.map(|numbers| format!("write {} = {} in one line", at.name, vector(item, &numbers)))
+}
+
 /// The temperature of `blackbody(2700)` or `Blackbody(temperature: 2700)`.
 fn kelvin<'s>(item: Item<'_, 's>) -> Option<&'s str> {
     let name = item.name()?;
@@ -235,7 +246,6 @@ pub(super) fn field_elsewhere(
             let mended = format!("{}{degrees}, {}{axis}", name_of("fov"), name_of("fov_axis"));
             (value.syntax() != Syntax::Toml).then_some((Some("fov"), mended))
         }
-        _ if let Some(mended) = rotation_as_field(name, value, def) => Some((Some("transform"), mended)),
         "diameter" => convert("radius", |d| d / 2.0),
         "radians" if def.field("degrees").is_some() => {
             let degrees = degrees(value.number()?, value.lexeme());
@@ -258,7 +268,7 @@ pub(super) fn field_elsewhere(
             let items = if is_list { value.lexeme().to_owned() } else { format!("[{}]", value.lexeme()) };
             Some((None, format!("{}{items}", name_of("items"))))
         }
-        _ if let Some(mended) = of_mesh(name, value, def) => Some((None, mended)),
+        _ if let Some(mended) = color_of_object(name, value, def) => Some((None, mended)),
         "resolution" | "size" | "dimensions" | "res" | "pixels" if def.name == "Image" => {
             let [width, height] = sides(value)?;
             Some((None, format!("{}{width}, {}{height}", name_of("width"), name_of("height"))))

@@ -62,9 +62,6 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
     let toml = item.syntax() == Syntax::Toml;
     if toml && def.name == "Scene" {
         // Headers of TOML have the whole way.
-        if Object::DEF.variant(name).is_some() {
-            return Some(format!("an object begins with two lines: [[objects]] and [objects.{name}]"));
-        }
         if Material::DEF.variant(name).is_some() {
             return Some(format!("a material with the name red begins with [materials.red.{name}]"));
         }

@@ -2,7 +2,8 @@
 
 use super::{Reader, Step, make_room, shortened};
 use crate::codes;
-use crate::desc::{Material, NamedMaterial};
+use crate::css_colors::named_color;
+use crate::desc::{Material, Metal, NamedMaterial};
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
 use crate::schema::FieldDef;
 use crate::suggest;
@@ -298,19 +299,46 @@ impl Reader<'_> {
                 (Some(_), syntax) => {
                     syntax.of_toml(format!("for a material written here: {{ {name} = {{ .. }} }}")).into_owned()
                 }
-                (None, Syntax::Ron) => {
-                    "add it to `materials`, or write the material here: Diffuse(albedo: 0.5)".to_owned()
-                }
-                (None, Syntax::Toml) => {
-                    "add it to [materials], or write the material here: { Diffuse = { albedo = 0.5 } }".to_owned()
-                }
-                (None, Syntax::Json) => {
-                    "add it to \"materials\", or write the material here: { \"Diffuse\": { \"albedo\": 0.5 } }"
-                        .to_owned()
+                (None, syntax) => {
+                    let list = match syntax {
+                        Syntax::Ron => "`materials`",
+                        Syntax::Toml => "[materials]",
+                        Syntax::Json => "\"materials\"",
+                    };
+                    format!("add it to {list}, or write the material here: {}", by_its_name(name, syntax))
                 }
             };
         }
         self.materials.unknown += 1;
         self.report(fault);
+    }
+}
+
+/// What is most likely meant by the name of a material: its colour, metal or kind of glass where the name tells it.
+fn by_its_name(name: &str, syntax: Syntax) -> String {
+    let word = |word: &str| {
+        let clear = match word {
+            "glass" | "window" | "bottle" => "1.5",
+            "water" => "1.33",
+            "ice" => "1.31",
+            "diamond" => "2.42",
+            _ => "",
+        };
+        let metal = Metal::DEF.variants.iter().find(|metal| metal.name.eq_ignore_ascii_case(word));
+        match named_color(word) {
+            _ if !clear.is_empty() => Some(("Transparent", "ior", clear.to_owned())),
+            _ if word == "mirror" => Some(("Mirror", "reflectance", "0.9".to_owned())),
+            _ if let Some(metal) = metal => Some(("Conductor", "metal", metal.name.to_owned())),
+            Some(hex) => Some(("Diffuse", "albedo", format!("\"{hex}\""))),
+            None => None,
+        }
+    };
+    let lower = name.to_ascii_lowercase();
+    let found = lower.split(|c: char| !c.is_ascii_alphabetic()).take(8).find_map(word);
+    let (kind, field, value) = found.unwrap_or(("Diffuse", "albedo", "0.5".to_owned()));
+    match syntax {
+        Syntax::Ron => format!("{kind}({field}: {value})"),
+        _ if field == "metal" => syntax.of_toml(format!("{{ {kind} = {{ {field} = \"{value}\" }} }}")).into_owned(),
+        syntax => syntax.of_toml(format!("{{ {kind} = {{ {field} = {value} }} }}")).into_owned(),
     }
 }

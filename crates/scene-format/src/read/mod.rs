@@ -270,6 +270,9 @@ impl<'r> Reader<'r> {
         item: Item<'t, 's>,
         def: &'static StructDef,
     ) -> Option<Fields<'t, 's>> {
+        if let Some(inner) = self.named_within(item, def) {
+            return self.fields_unnamed(inner, def);
+        }
         let mut fields = Fields::new(def, item);
         match item.kind() {
             Kind::Broken => return None,
@@ -551,7 +554,7 @@ impl<'r> Reader<'r> {
 
     /// Reports a value of the wrong kind for a field.
     pub(crate) fn wrong_type<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef, expected: &str) -> Option<T> {
-        self.wrong_kind(item, at.noun, expected, colors_elsewhere::in_braces(item, at))
+        self.wrong_kind(item, at.noun, expected, colors_elsewhere::in_other_brackets(item, at))
     }
 
     pub(crate) fn wrong_kind<T>(

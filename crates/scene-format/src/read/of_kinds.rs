@@ -18,7 +18,7 @@ pub(super) const OBJECTS: Hints = &[
          name its file in a `Mesh`",
     ),
     (
-        &["nurbs", "text"],
+        &["nurbs", "text", "teapot", "bunny", "dragon", "suzanne", "monkey"],
         "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a \
          `Mesh`",
     ),

@@ -1,6 +1,7 @@
 //! Several fields of other programs that say together what one of ours says: `width` and `height`, `min` and `max`.
 
 use super::elsewhere::{Fields, numbers, whole_field};
+use super::transforms_elsewhere::placed;
 use super::unknown::Unknown;
 use crate::diagnostic::{Edit, Span};
 use crate::syntax::{Syntax, decode};
@@ -99,7 +100,7 @@ const ROWS: &[Row] = &[
 
 /// What is said of a field that is one of several; `None` where the others are not there.
 pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
-    ROWS.iter().find_map(|row| of_row(unknown, row)).or_else(|| by_axes(unknown))
+    ROWS.iter().find_map(|row| of_row(unknown, row)).or_else(|| by_axes(unknown)).or_else(|| placed(unknown))
 }
 
 /// Degrees or factors by their axes: `Rotate(x: 30, y: 40)`, `Scale(x: 2)`. One turn goes about one axis.
@@ -186,22 +187,33 @@ fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, [ron, toml], turne
             .to_owned(),
         None => format!("write `{way}`"),
     };
-    let edit = mended.and_then(|mended| match all_of(&found, *item) {
-        Some(span) => Some(Edit { span, replacement: mended }),
-        None => around(&found, *item, &mended),
-    });
+    let edit = mended.and_then(|mended| in_place_of(&found, *item, mended));
     Some(Together { hint: Some(hint), edit, fields })
 }
 
-/// Two fields of a line with others between them, which stay behind what is written for the two.
-fn around(found: &[(Item<'_, '_>, Item<'_, '_>)], item: Item<'_, '_>, mended: &str) -> Option<Edit> {
+/// What is written in place of fields: at the first of them; what stands between them stays behind it.
+pub(super) fn in_place_of(
+    found: &[(Item<'_, '_>, Item<'_, '_>)],
+    item: Item<'_, '_>,
+    mut replacement: String,
+) -> Option<Edit> {
+    if let Some(span) = all_of(found, item) {
+        return Some(Edit { span, replacement });
+    }
     let mut spans: Vec<Span> = found.iter().map(|(key, value)| whole_field(*key, *value)).collect();
     spans.sort();
-    let [first, last] = spans.as_slice() else { return None };
     let within = |at: u32| at.checked_sub(item.span().start).map(|at| at as usize);
-    let between = item.lexeme().get(within(first.end)?..within(last.start)?)?.trim_matches([' ', ',']);
-    let plain = !between.is_empty() && !between.contains(['\n', '/', '#']);
-    plain.then(|| Edit { span: Span { end: last.end, ..*first }, replacement: format!("{mended}, {between}") })
+    for pair in spans.windows(2) {
+        // Tables under a header of TOML are not in one piece.
+        let between = item.lexeme().get(within(pair[0].end)?..within(pair[1].start)?)?;
+        let comment = if item.syntax() == Syntax::Toml { between.contains('#') } else { between.contains('/') };
+        if comment || between.contains('[') && item.syntax() == Syntax::Toml {
+            return None;
+        }
+        replacement += between.trim_end_matches([' ', ',', '\n', '\r', '\t']);
+    }
+    let (first, last) = (*spans.first()?, *spans.last()?);
+    Some(Edit { span: Span { end: last.end, ..first }, replacement })
 }
 
 /// The place of fields that stand side by side, with nothing but commas and blanks between them.

@@ -1,7 +1,10 @@
 //! Transforms and placements in the ways of other programs: `RotateY(30)`, `Translate(x: 1)`, `[(1, 0, 0)]`.
 
-use super::Reader;
-use super::elsewhere::{axis, degrees, fields_named, numbers};
+use super::elsewhere::{Fields, axis, degrees, fields_named, numbers};
+use super::synonyms::synonyms;
+use super::together::{Together, in_place_of};
+use super::unknown::Unknown;
+use super::{LOOK_AT, Reader};
 use crate::codes;
 use crate::desc::TransformWords;
 use crate::desc::matrix::unnamed_rows;
@@ -227,6 +230,9 @@ fn matrix(rows: &str) -> Meant {
 
 /// `Rotate((0, 30, 0))`, an angle an axis, `Rotate((0, 1, 0), 30)` and `Rotate(30, (0, 1, 0))`.
 fn turned(body: Item<'_, '_>, list: Option<&[&str]>) -> Option<Meant> {
+    if body.kind() == Kind::List && body.syntax() != Syntax::Ron {
+        return angles(<[&str; 3]>::try_from(list?).ok()?);
+    }
     if body.kind() != Kind::Tuple || body.name().is_none() {
         return None;
     }
@@ -263,15 +269,56 @@ fn all_angles(degrees: [&str; 3]) -> Vec<Meant> {
     turned.filter_map(|(letter, degrees)| Some(rotation(axis(letter)?, degrees, true))).collect()
 }
 
-/// `rotation: (0, 45, 0)` of what has a `transform`: what to write for name and value.
-pub(super) fn rotation_as_field(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<String> {
-    let names = ["rotate", "rotation", "euler", "rotation_euler", "orientation"];
-    if !names.contains(&name) || def.field("transform").is_none() || value.name().is_some() {
+/// What a field of other programs is among the steps of a transform, and at which place: most of them scale, then turn,
+/// then move.
+fn step_as_field(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<(u8, Vec<Meant>)> {
+    if def.field(name).is_some() || !synonyms(name, def).is_empty() || value.name().is_some() {
         return None;
     }
-    let steps = all_angles(numbers(value)?.try_into().ok()?);
-    let name = super::elsewhere::Fields(value.syntax()).name("transform");
-    (!steps.is_empty()).then(|| format!("{name}{}", listed(&steps, value.syntax())))
+    let three = || <[&str; 3]>::try_from(numbers(value)?).ok();
+    match name {
+        "scale" | "scaling" => {
+            let factors = three().or_else(|| value.number().map(|_| [value.lexeme(); 3]))?;
+            let same = value.number().is_some();
+            let mut step = scaling(factors);
+            if same {
+                (step.ron, step.toml) = (factors[0].to_owned(), factors[0].to_owned());
+            }
+            Some((0, vec![step]))
+        }
+        "rotate" | "rotation" | "euler" | "rotation_euler" | "orientation" => {
+            let steps = all_angles(three()?);
+            (!steps.is_empty()).then_some((1, steps))
+        }
+        "position" | "pos" | "location" | "center" | "translate" | "translation" | "move" | "offset" => {
+            Some((2, vec![translation(three()?)]))
+        }
+        _ => None,
+    }
+}
+
+/// `position`, `rotation` and `scale` of what has a `transform`, all together as one.
+pub(super) fn placed(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    let &Unknown { key, item, def, name, value } = unknown;
+    let is_written = || item.fields().take(LOOK_AT).any(|(key, _)| key.text() == "transform");
+    step_as_field(name, value, def).filter(|_| def.field("transform").is_some() && !is_written())?;
+    let mut found = Vec::new();
+    let mut steps = Vec::new();
+    for (key, value) in item.fields().take(LOOK_AT) {
+        if let Some(step) = step_as_field(&key.text(), value, def) {
+            steps.push(step);
+            found.push((key, value));
+        }
+    }
+    let fields = vec!["transform"];
+    if found.iter().any(|(other, _)| other.span().start < key.span().start) {
+        return Some(Together { hint: None, edit: None, fields });
+    }
+    steps.sort_by_key(|(place, _)| *place);
+    let steps: Vec<Meant> = steps.into_iter().flat_map(|(_, steps)| steps).collect();
+    let mended = format!("{}{}", Fields(item.syntax()).name("transform"), listed(&steps, item.syntax()));
+    let hint = Some(format!("write `{mended}`"));
+    Some(Together { hint, edit: in_place_of(&found, item, mended), fields })
 }
 
 /// An angle for each axis: one step where only one is not zero.

@@ -4,14 +4,15 @@ use super::hints::{kind_elsewhere, other_kind};
 use super::variant::{choices, of_kind};
 use super::{Reader, hinted, shortened};
 use crate::codes;
+use crate::desc::{Light, Object};
 use crate::diagnostic::{Diagnostic, Edit};
-use crate::schema::{Content, EnumDef, VariantDef};
+use crate::schema::{Content, EnumDef, StructDef, VariantDef};
 use crate::suggest;
 use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
 
 /// Fields that tell a kind.
-pub(super) const NAMES: [&str; 3] = ["type", "$type", "class"];
+pub(super) const NAMES: [&str; 5] = ["type", "$type", "class", "kind", "shape"];
 /// So many fields are looked at.
 const MOST: usize = 64;
 
@@ -45,6 +46,10 @@ impl Reader<'_> {
         // Of one kind there is no choice.
         let only = || def.variants.first().filter(|_| def.variants.len() == 1);
         let meant = def.variants.iter().find(folded).or_else(near).or_else(only);
+        // These two are names of ours, too.
+        if meant.is_none() && matches!(&*key.text(), "kind" | "shape") {
+            return None;
+        }
         match meant {
             Some(variant) if let Some((way, edit)) = headed(item, key, value, Some(variant.name)) => {
                 (fault.hint, fault.edit) = (way, edit);
@@ -79,6 +84,50 @@ impl Reader<'_> {
         self.typed = item.index() as u32;
         Some(meant.filter(|variant| matches!(variant.content, Content::Struct(_))))
     }
+}
+
+impl Reader<'_> {
+    /// The fields of a group whose name stands once more before them, `[camera.Camera]`, as kinds of objects do: tells
+    /// that it does not belong there.
+    pub(super) fn named_within<'t, 's>(&mut self, item: Item<'t, 's>, def: &'static StructDef) -> Option<Item<'t, 's>> {
+        if item.kind() != Kind::Map || item.syntax() == Syntax::Ron {
+            return None;
+        }
+        let mut fields = item.fields();
+        let (key, value) = fields.next().filter(|_| fields.next().is_none())?;
+        if key.text() != def.name || value.kind() != Kind::Map {
+            return None;
+        }
+        let (noun, header) = (super::plain(def.noun), value.lexeme());
+        let message = format!("{noun} has no kind before its fields");
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, key.span(), message);
+        let (hint, span, replacement) = match header.trim_end_matches([']', ' ']).rsplit_once('.') {
+            Some((path, _)) if header.starts_with('[') => (format!("write {path}]"), value.span(), format!("{path}]")),
+            _ => (format!("leave out `{}` and the brackets around it", def.name), item.span(), header.to_owned()),
+        };
+        fault.edit = Some(Edit { span, replacement });
+        self.report(fault.hint(hint));
+        Some(value)
+    }
+}
+
+/// `[[Box]]` or `[[SphereLight]]` in the scene itself: what to write, and the edit.
+pub(super) fn kind_as_list(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<(String, Option<Edit>)> {
+    let header = value.lexeme();
+    if def.name != "Scene" || value.syntax() != Syntax::Toml || !header.starts_with('[') {
+        return None;
+    }
+    let (what, list) = if Object::DEF.variant(name).is_some() {
+        ("an object", "objects")
+    } else if Light::DEF.variant(name).is_some() {
+        ("a light", "lights")
+    } else {
+        return None;
+    };
+    let lines = [format!("[[{list}]]"), format!("[{list}.{name}]")];
+    let edit = header.trim_matches(['[', ']', ' ']) == name;
+    let edit = edit.then(|| Edit { span: value.span(), replacement: lines.join("\n") });
+    Some((format!("{what} begins with two lines: {} and {}", lines[0], lines[1]), edit))
 }
 
 /// How a table of TOML with a header of its own tells its kind, and the edit that has it do so where the field that

@@ -4,7 +4,7 @@ use super::elsewhere::{self, Fields};
 use super::hints::{self, field_of_others, other_way, right_place};
 use super::synonyms::synonyms;
 use super::value::expected_for;
-use super::{LOOK_AT, Reader, field_list, hinted, is_expression, names, pattern_fields, together};
+use super::{LOOK_AT, Reader, field_list, hinted, is_expression, names, pattern_fields, together, typed};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{FieldDef, StructDef, Type};
@@ -115,6 +115,11 @@ impl Reader<'_> {
             fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
             self.report(fault);
             return meant.map_or(Meant::Nothing, Meant::Field);
+        }
+        if let Some((hint, edit)) = typed::kind_as_list(name, value, def) {
+            (fault.hint, fault.edit) = (hint, edit);
+            self.report(fault);
+            return Meant::Nothing;
         }
         if let Some((hint, mended)) = pattern_fields::of_mapping(name, value, item, def) {
             fault.hint = hint;

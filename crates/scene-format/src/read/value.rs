@@ -21,7 +21,7 @@ pub(crate) fn expected_for(at: &FieldDef, item: Item<'_, '_>) -> String {
     let words = expected(at);
     match item.syntax() {
         Syntax::Ron => words,
-        syntax => in_braces(&words, syntax)
+        syntax => in_braces(&words.replace(": Camera(..)", ", by its fields"), syntax)
             .replace("((a, b, c, x), (d, e, f, y), (g, h, i, z))", "[[a, b, c, x], [d, e, f, y], [g, h, i, z]]")
             .replace("(a, b, c, x)", "[a, b, c, x]")
             .replace("(x, y, z)", "[x, y, z]")
@@ -182,7 +182,7 @@ impl Reader<'_> {
         if self.name_as_value(item, at) {
             return None;
         }
-        let mut edit = None;
+        let mut edit;
         if let Kind::Text | Kind::Word = item.kind() {
             let text = item.text();
             let trimmed = text.trim();
@@ -201,6 +201,8 @@ impl Reader<'_> {
             }
         } else if let Kind::Tuple | Kind::List = item.kind() {
             edit = elsewhere::number_elsewhere(item, at);
+        } else {
+            edit = super::colors_elsewhere::in_other_brackets(item, at);
         }
         self.wrong_kind(item, at.noun, &expected_for(at, item), edit)
     }

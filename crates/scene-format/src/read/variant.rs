@@ -154,7 +154,10 @@ impl Reader<'_> {
                 .replace("a obj", "an obj"),
         )
         .expected(choices(def, item.syntax()));
-        if matches!(item.kind(), Kind::Struct | Kind::Map) {
+        if let Some(mended) = super::colors_elsewhere::color_as_material(item, def) {
+            fault.hint = format!("write {}", super::hinted(&mended));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else if matches!(item.kind(), Kind::Struct | Kind::Map) {
             // The fields alone, without the name of the kind: say which kind has them.
             let fits = def.variants.iter().filter(|variant| {
                 matches!(variant.content, Content::Struct(fields)
@@ -404,7 +407,8 @@ fn needs(variant: &'static VariantDef, inner: Option<Item<'_, '_>>, syntax: Synt
         .filter(|field| field.default.is_none())
         .map(|field| format!("{}: ..", field.name))
         .collect();
-    words.extend(fields.exactly_one.last().map(|name| format!("{name}: ..")));
+    let of_file = fields.exactly_one.iter().find(|name| **name == "file");
+    words.extend(of_file.or(fields.exactly_one.last()).map(|name| format!("{name}: ..")));
     Some(match syntax {
         Syntax::Ron => format!("`{}({})`", variant.name, words.join(", ")),
         syntax => {

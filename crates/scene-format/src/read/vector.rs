@@ -63,6 +63,12 @@ impl Reader<'_> {
                 self.report(texture_as_amount(item, at));
                 return None;
             }
+            if let Some(way) = elsewhere::dotted(item, at, N) {
+                let message = format!("{} cannot be {}", plain(at.noun), describe(item));
+                let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message);
+                self.report(fault.expected(expected_for(at, item)).hint(way));
+                return None;
+            }
             let edit = elsewhere::vector_elsewhere(item, at, N);
             return self.wrong_kind(item, at.noun, &expected_for(at, item), edit);
         }

@@ -57,6 +57,12 @@ pub(crate) fn way(name: &str, value: &str) -> String {
     format!("values with names stand in `vars`: vars: {{ \"{name}\": {value} }}, and are used so: \"={name}\"")
 }
 
+/// The name of which a hint tells the way.
+pub(crate) fn name_in_way(hint: &str) -> Option<&str> {
+    let (name, _) = hint.strip_prefix("values with names stand in `vars`: vars: { \"")?.split_once('"')?;
+    Some(name)
+}
+
 impl Parser<'_> {
     /// `{x}`, `$x` or `${x}` where a value stands, which is reported.
     pub(super) fn name_elsewhere(&mut self, start: usize) -> bool {

@@ -516,8 +516,8 @@ impl Parser<'_> {
                 let word = &self.text[self.at..self.at + length];
                 let mut fault =
                     Diagnostic::error(codes::BAD_NUMBER, found, format!("`{word}` is not part of a number"))
-                        .hint("numbers carry no unit; the reference says which unit each field has");
-                fault.edit = Some(Edit { span: found, replacement: String::new() });
+                        .hint(super::units::way(None, word));
+                fault.edit = Some(Edit { span: self.span(end, self.at + length), replacement: String::new() });
                 self.sink.push(fault);
                 self.at += length;
                 return self.separator();

@@ -494,8 +494,8 @@ fn bad_number(lexeme: &str, found: Span) -> Diagnostic {
         fault = fault.hint("a number has one decimal point; values are parted by commas");
     } else if lexeme.trim_start_matches(['+', '-']).starts_with(['i', 'I', 'n', 'N']) {
         fault = fault.hint("JSON has finite numbers only");
-    } else if lexeme.len() > 1 && lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
-        fault = fault.hint("numbers carry no unit; the reference says which unit each field has");
+    } else {
+        fault = super::units::joined(fault, lexeme);
     }
     fault
 }

@@ -98,8 +98,8 @@ impl Parser<'_> {
             fault.edit = Some(Edit { span: found, replacement: mended });
         } else if lexeme.len() == 1 {
             fault = fault.hint("write the digits after the sign, without a space");
-        } else if lexeme.ends_with(|c: char| c.is_alphabetic()) && !lexeme.contains("0x") {
-            fault = fault.hint("numbers carry no unit; the reference says which unit each field has");
+        } else {
+            fault = super::units::joined(fault, lexeme);
         }
         self.sink.push(fault);
         self.builder.leaf(Kind::Broken, start, at);

@@ -364,10 +364,15 @@ impl Parser<'_> {
 
     /// After a header or a statement nothing but a comment may stand on the line.
     pub(super) fn end_of_line(&mut self, what: &str) {
+        let end = self.previous_end;
         self.space();
         match self.kind {
             TokenKind::Newline | TokenKind::Eof => {}
             TokenKind::Comment => self.trivia(),
+            TokenKind::Atom if self.is_unit(end) => {
+                self.unit(end);
+                self.end_of_line(what);
+            }
             _ => {
                 let start = self.span.start();
                 let sign = match self.lexeme() {

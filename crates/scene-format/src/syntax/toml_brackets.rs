@@ -256,7 +256,10 @@ impl Parser<'_> {
                 self.sink.push(fault);
                 self.resume(self.span.start() + 1);
             }
-            TokenKind::Atom if self.is_unit(end) => self.unit(),
+            TokenKind::Atom if self.is_unit(end) => {
+                self.unit(end);
+                self.separator();
+            }
             _ => {
                 let next_line = self.text[end..self.span.start()].contains('\n');
                 if next_line && self.open.last().is_some_and(|open| open.bracket == b'{') && self.assignment_ahead() {
@@ -288,15 +291,14 @@ impl Parser<'_> {
     }
 
     /// Tells that numbers carry no unit, and goes past it.
-    pub(super) fn unit(&mut self) {
+    pub(super) fn unit(&mut self, end: usize) {
         let found = self.found();
         let mut fault =
             Diagnostic::error(codes::BAD_NUMBER, found, format!("`{}` is not part of a number", self.lexeme()))
-                .hint("numbers carry no unit; the reference says which unit each field has");
-        fault.edit = Some(Edit { span: found, replacement: String::new() });
+                .hint(super::units::way(None, self.lexeme()));
+        fault.edit = Some(Edit { span: self.range(end, self.span.end()), replacement: String::new() });
         self.sink.push(fault);
         self.bump();
-        self.separator();
     }
 
     /// Goes past the next comma of this bracket, or to its end.

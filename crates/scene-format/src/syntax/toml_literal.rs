@@ -122,8 +122,8 @@ impl Parser<'_> {
             if let Some(mended) = mended_number(lexeme) {
                 fault = fault.hint(format!("TOML writes it `{mended}`"));
                 fault.edit = Some(Edit { span: found, replacement: mended });
-            } else if has_unit(lexeme) {
-                fault = fault.hint("numbers carry no unit; the reference says which unit each field has");
+            } else {
+                fault = super::units::joined(fault, lexeme);
             }
             fault
         } else {
@@ -435,12 +435,6 @@ pub(super) fn scalar_kind(lexeme: &str) -> Option<Kind> {
     let signed_radix = radix && lexeme.len() != unsigned.len();
     let wrong = leading_zero || bare_point || underscores || signed_radix;
     (!wrong).then_some(kind)
-}
-
-/// Whether a number ends in a short word: `40deg`.
-fn has_unit(lexeme: &str) -> bool {
-    let word = lexeme.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | '_'));
-    (1..=7).contains(&word.len()) && word.len() < lexeme.len() && word.bytes().all(|byte| byte.is_ascii_alphabetic())
 }
 
 /// A number that RON takes as TOML wants it.

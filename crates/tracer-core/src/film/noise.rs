@@ -33,6 +33,23 @@ const FEW: f64 = 6.0;
 /// m of 72 pixels: they tell how fast the noise has fallen over two octaves to a sixth.
 const MANY: f64 = 24.0;
 
+/// What the few pixels that bear nearly all of a picture's noise are: those of a lamp smaller than a pixel, say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FewNoisy {
+    /// How many they are.
+    pub pixels: usize,
+    /// The pixel that bears most: column and row in the picture, from the upper left.
+    pub worst: [u32; 2],
+    /// The noise of all others relative to their mean luminance, as independent samples would have it: an upper bound.
+    pub rest: f64,
+}
+
+/// The few are no more than one in so many pixels.
+const ONE_IN: usize = 1000;
+
+/// What the others bear of the squared noise: without the few there is a third of the noise left.
+const LEFT: f64 = 1.0 / 9.0;
+
 /// What is known of the noise from the last octave of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Octave {
@@ -189,6 +206,33 @@ impl Film {
             None => independent(),
         };
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
+    }
+
+    /// The pixels that bear nearly all of the noise, where they are few: at most one in a thousand, or one.
+    pub fn few_noisy(&self) -> Option<FewNoisy> {
+        // In the sums' own unit: squares of the scene's might leave the range of numbers.
+        let unit = self.unit * self.unit;
+        let mut of_pixels: Vec<([u32; 2], f64)> =
+            self.pixels().map(|(x, y)| ([x, y], self.variance(x, y) / unit)).collect();
+        let all: f64 = of_pixels.iter().map(|(_, variance)| variance).sum();
+        let most = (of_pixels.len() / ONE_IN).max(1);
+        if of_pixels.len() <= most {
+            return None;
+        }
+        let (few, ..) = of_pixels.select_nth_unstable_by(most, |a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        few.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let mut left = all;
+        let pixels = 1 + few.iter().position(|(_, variance)| {
+            left -= variance;
+            left <= LEFT * all
+        })?;
+        let (few, others) = of_pixels.split_at(pixels);
+        // Sums of their own: of the differences nothing may be left but rounding.
+        let variance: f64 = others.iter().map(|(_, variance)| variance).sum();
+        let light: f64 = others.iter().map(|&([x, y], _)| luminance(self.radiance(x, y)) / self.unit).sum();
+        let count = others.len() as f64;
+        let rest = if light > 0.0 { (variance / count).sqrt() / (light / count) } else { 0.0 };
+        (all > 0.0).then_some(FewNoisy { pixels, worst: few[0].0, rest })
     }
 
     /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones, and where

@@ -34,6 +34,33 @@ fn sums_do_not_depend_on_their_order() {
     assert!(forwards == backwards);
 }
 
+/// One pixel of 256 in which now and then there is something very bright, and one of which that is so in all pixels.
+#[test]
+fn the_few_pixels_that_bear_the_noise_are_found() {
+    let film = |brightest: f32| {
+        let mut film = Film::new([16, 16], Crop::whole([16, 16]), 0, 1.0, None);
+        let (_, bright) = film.place(5, 9);
+        for sample in 0..8 {
+            for first in [0, 64, 128, 192] {
+                let light = |k: usize| match first + k {
+                    pixel if pixel == bright && sample == 3 => brightest,
+                    _ if sample % 2 == 0 => 0.75,
+                    _ => 0.25,
+                };
+                let pixels: [[u8; 2]; 64] = std::array::from_fn(|k| [k as u8, (first + k) as u8]);
+                film.tiles[0].add(slices(&filled(light)), &pixels);
+            }
+        }
+        film
+    };
+    assert_eq!(film(0.25).few_noisy(), None);
+    let few = film(1e6).few_noisy().expect("one that is brighter");
+    assert_eq!((few.pixels, few.worst), (1, [5, 9]));
+    // Eight samples that scatter by a quarter: the variance of the mean is 1/16/7, relative to a mean of a half.
+    let expected = (1.0 / 112.0f64).sqrt() / 0.5;
+    assert!((few.rest / expected - 1.0).abs() < 1e-6, "{few:?}, {expected}");
+}
+
 #[test]
 fn a_film_takes_the_bytes_that_were_foretold() {
     for crop in

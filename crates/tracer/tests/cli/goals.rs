@@ -30,6 +30,33 @@ fn a_noise_goal_ends_the_rendering_where_it_is_reached() {
     assert_eq!(sandbox.read("a.pfm"), sandbox.read("c.pfm"));
 }
 
+/// A lamp smaller than a pixel is most of the noise, and no goal will be reached: that is told, with the way.
+#[test]
+fn a_noise_that_few_pixels_bear_is_told() {
+    let sandbox = Sandbox::new();
+    let scene = |visible: bool| {
+        format!(
+            r#"Scene(
+    version: 1,
+    image: Image(width: 96, height: 64),
+    camera: Camera(position: (0, 0.2, 6), look_at: (0, 0, 0), fov: 40),
+    lights: [SphereLight(center: (0.3, 1.2, 0), radius: 0.003, power: 60, camera_visible: {visible})],
+    objects: [Rectangle(center: (0, 0, -2), size: (20, 20), normal: (0, 0, 1))],
+)"#
+        )
+    };
+    sandbox.write("lamp.ron", scene(true));
+    let line = ["render", "lamp.ron", "-o", "a.png", "--noise", "3%", "--samples", "256", "--report", "a.json"];
+    let says = ["the others have", "which is good enough", "camera_visible: false", "256 samples came first"];
+    sandbox.run(&line).ends(0).says(&says);
+    let noise = report(&sandbox, "a.json")["noise"].clone();
+    assert!(noise["few"]["rest"].as_f64().is_some_and(|rest| rest < 0.03), "{noise}");
+    assert!(noise["few"]["pixels"].as_u64().is_some_and(|pixels| pixels <= 6), "{noise}");
+    sandbox.write("lamp.ron", scene(false));
+    sandbox.run(&line).ends(0).says(&["that is good enough"]);
+    assert_eq!(report(&sandbox, "a.json")["noise"]["few"], Value::Null);
+}
+
 #[test]
 fn samples_come_before_a_noise_that_is_not_reached() {
     let sandbox = Sandbox::new();

@@ -3,7 +3,7 @@
 use super::outputs::Output;
 use crate::args::RenderArgs;
 use crate::failure::Failure;
-use crate::progress::Goals;
+use crate::progress::{Goals, SMALL};
 use crate::shell::Shell;
 use crate::write::Encoding;
 use scene_format::SceneDesc;
@@ -105,5 +105,8 @@ pub fn end(desc: &mut SceneDesc, film: &Film, interrupted: bool, shell: &Shell) 
     } else if let Some(goal) = goal.filter(|goal| noise > *goal) {
         let (noise, percent) = (100.0 * noise, 100.0 * goal);
         say(format!("the noise is {noise:.2} %, not {percent} %: {asked} samples came first"));
+        if film.few_noisy().is_some() {
+            say(SMALL.to_owned());
+        }
     }
 }

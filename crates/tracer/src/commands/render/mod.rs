@@ -16,7 +16,7 @@ use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told};
 use crate::denoising::{self, Denoiser, Developed};
 use crate::failure::{Failure, exit};
 use crate::loading::{Known, asset_files, compile, expect_all_moments, is_dash, load, use_threads};
-use crate::progress::{Watch, noise, rate};
+use crate::progress::{Watch, noise_of, rate};
 use crate::report::{
     ClampedReport, FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport,
     Seconds, Stats, Transport, Tree, VERSION,
@@ -261,8 +261,7 @@ fn one(
             0 => "all samples were there".to_owned(),
             samples => rate(samples as f64 / seconds.render),
         };
-        let noise =
-            noise(film.relative_noise(), film.noise_rate(), fewest).map_or(String::new(), |noise| format!("; {noise}"));
+        let noise = noise_of(&film, fewest).map_or(String::new(), |noise| format!("; {noise}"));
         let noise = if denoised.is_some() { noise.replacen(" %", " % before it was denoised", 1) } else { noise };
         shell.say(&format!("{names} in {:.2} s, {speed}{noise}", seconds.total));
     }
@@ -501,7 +500,7 @@ fn report(
             beyond: counters.beyond,
         },
         mean_path_length: (counters.camera_rays + counters.scattered_rays) as f64 / counters.camera_rays.max(1) as f64,
-        noise: Noise { relative: film.relative_noise() },
+        noise: Noise::of(&film),
         denoise: None,
         primitives: Primitives {
             spheres: statistics.spheres,

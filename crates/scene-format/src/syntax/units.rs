@@ -1,0 +1,41 @@
+//! Numbers with their unit, `45deg` or `60 W`: the language has one unit for each quantity, and writes none.
+
+use super::decode;
+use crate::diagnostic::{Diagnostic, Edit};
+
+/// A short word after a number: both, where it is one.
+pub(super) fn parted(lexeme: &str) -> Option<(&str, &str)> {
+    let unit = lexeme.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | '_'));
+    let number = &lexeme[..lexeme.len() - unit.len()];
+    let short = (1..=7).contains(&unit.len()) && unit.bytes().all(|byte| byte.is_ascii_alphabetic());
+    (short && decode::number(number).is_finite()).then_some((number, unit))
+}
+
+/// What is said of a unit. The number stands before it, or is its own word's.
+pub(super) fn way(number: Option<&str>, unit: &str) -> String {
+    let write = number.map_or("leave it out".to_owned(), |number| format!("write {number}"));
+    match unit.to_ascii_lowercase().as_str() {
+        "deg" | "degs" | "degree" | "degrees" => format!("{write}: angles are in degrees"),
+        "rad" | "rads" | "radian" | "radians" => match number.map(|number| decode::number(number).to_degrees()) {
+            Some(degrees) => format!("angles are in degrees: write {}", (degrees * 1e4).round() / 1e4),
+            None => "angles are in degrees: 1 rad is 57.2958 of them".to_owned(),
+        },
+        "w" | "watt" | "watts" => format!("{write}: `power` is in watts"),
+        "m" | "cm" | "mm" | "km" | "in" | "inch" | "inches" | "ft" | "feet" | "meter" | "meters" | "metre"
+        | "metres" => "lengths are in the scene's own unit, whichever you take: all of them in the same one".to_owned(),
+        "px" | "pixel" | "pixels" => format!("{write}: width and height are in pixels"),
+        "s" | "sec" | "secs" | "second" | "seconds" => format!("{write}: times are in seconds"),
+        _ => "numbers carry no unit; the reference says which unit each field has".to_owned(),
+    }
+}
+
+/// Says of what begins like a number and ends in a unit what to write.
+pub(super) fn joined(mut fault: Diagnostic, lexeme: &str) -> Diagnostic {
+    let Some((number, unit)) = parted(lexeme) else { return fault };
+    fault = fault.hint(way(Some(number), unit));
+    let same = ["deg", "degree", "degrees", "w", "watt", "watts", "px", "s", "sec", "seconds", "m"];
+    if same.contains(&unit.to_ascii_lowercase().as_str()) {
+        fault.edit = Some(Edit { span: fault.span, replacement: number.to_owned() });
+    }
+    fault
+}
