@@ -22,7 +22,9 @@ use std::path::Path;
 /// [`LoadError::Invalid`] when the scene is not right: nobody could say what to write. Faults of files that it
 /// includes do not count.
 pub fn convert(name: &str, text: &str, from: Syntax, to: Syntax) -> Result<String, LoadError> {
-    write(name, text, from, to, false)
+    let written = write(name, text, from, to, false)?;
+    // Laid out as it would be if a person had written it so: a comment may stand elsewhere now.
+    Ok(format(name, &written, to).unwrap_or(written))
 }
 
 /// How many comments a text has.

@@ -6,7 +6,7 @@ use common::generated::{plain, scene};
 use common::{FULL, FULL_JSON, FULL_RON, FULL_TOML, Random, load};
 use scene_format::desc::*;
 use scene_format::diagnostic::Span;
-use scene_format::{Defaults, SceneDesc, Syntax, convert, examples, hash, hash_hex, to_text};
+use scene_format::{Defaults, SceneDesc, Syntax, convert, examples, format, hash, hash_hex, to_text};
 
 fn read(text: &str, syntax: Syntax) -> SceneDesc {
     match load(text, syntax) {
@@ -43,6 +43,7 @@ fn converted_scenes_say_the_same() {
         for other in Syntax::ALL.into_iter().filter(|other| *other != syntax) {
             let there = convert("scene", &text, syntax, other).expect("the scene is right");
             assert_eq!(hash_hex(&read(&there, other)), expected, "{there}");
+            assert_eq!(format("scene", &there, other).expect("the scene is right"), there);
             let back = convert("scene", &there, other, syntax).expect("the converted scene is right");
             assert_eq!(hash_hex(&read(&back, syntax)), expected, "{back}");
             // Once converted, a text stays as it is.

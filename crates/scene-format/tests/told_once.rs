@@ -191,4 +191,23 @@ fn materials_by_their_names_and_by_a_color_alone() {
     let red = scene("Diffuse(albedo: \"#ff0000\")");
     mends(&[(Ron, &scene("{ \"color\": \"red\" }"), &red), (Ron, &scene("(color: \"red\")"), &red)]);
     told(Ron, "Scene(background: 1, objects: [Model(path: \"a.obj\")])", "Mesh(file: ..)");
+    let toml = "background = 1\n[[objects]]\n[objects.Box]\nsize = 1\n[objects.Box.material]\ncolor = \"red\"\n";
+    told(Toml, toml, "below [objects.Box.material.Diffuse] write albedo = \"#ff0000\"");
+    let sky = |sky: &str| format!("Scene(background: {sky}, objects: [Box(size: 1)])");
+    mends(&[(Ron, &sky("(color: (0, 0, 1))"), &sky("(0, 0, 1)"))]);
+}
+
+#[test]
+fn what_is_missing_follows_from_what_is_called_otherwise() {
+    told(
+        Ron,
+        "Scene(background: 1, objects: [Repeat(count: 5, item: Box(size: \"=k\"))])",
+        "write `items: [Box(size: \"=k\")]`",
+    );
+    told(Ron, "Scene(background: 1, output: (file: \"a.png\"), objects: [Box(size: 1)])", "-o picture.png");
+    for (written, way) in
+        [("=1, 2, 3", "three numbers in brackets"), ("=[1, 2, 3]", "the brackets of a point are round")]
+    {
+        told(Ron, &format!("Scene(background: 1, objects: [Box(size: \"{written}\")])"), way);
+    }
 }

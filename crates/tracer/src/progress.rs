@@ -255,8 +255,8 @@ pub fn noise_of(film: &Film, samples: u32) -> Option<String> {
     })
 }
 
-/// `noise 4 %, about 1000 samples for 1 %`. `None`: there is no noise, or one cannot tell. Its square falls at this rate
-/// with the number of samples.
+/// `noise 4 %, about 1000 samples for 1 %`. `None`: there is no noise, or one cannot tell. Its square falls at this
+/// rate with the number of samples.
 pub fn noise(relative: f64, rate: f64, samples: u32) -> Option<String> {
     if !(relative.is_finite() && relative > 1e-6) || samples < 2 {
         return None;

@@ -42,6 +42,9 @@ pub(crate) fn evaluate(text: &str, name: &mut dyn FnMut(&str) -> Named) -> Resul
 fn operator_of_others(sign: &str) -> Option<&'static str> {
     Some(match sign {
         "?" | "if" | "else" | "then" => "a choice is written if(condition, a, b)",
+        "," => {
+            "three numbers in brackets are a point or a colour, (1, 2, 3); else each number is an expression of its own"
+        }
         "and" | "AND" | "&" => "both are meant by `&&`",
         "or" | "OR" | "|" => "one of them is meant by `||`",
         "not" | "NOT" => "the opposite is written with `!`",
@@ -404,7 +407,9 @@ impl Parser<'_, '_> {
                 } else {
                     format!("`{}` cannot stand here", &self.text[at.clone()])
                 };
-                Err(self.syntax(at, &message, "a number, a name, or a bracket"))
+                let hint = if rest.starts_with('[') { "the brackets of a point are round: (1, 2, 3)" } else { "" };
+                let fault = self.syntax(at, &message, "a number, a name, or a bracket");
+                Err(fault.map(|fault| Fault { hint: hint.to_owned(), ..fault }))
             }
         }
     }

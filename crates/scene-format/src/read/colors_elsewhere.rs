@@ -2,7 +2,7 @@
 
 use super::elsewhere::{Fields, numbers, vector_elsewhere};
 use super::value::{before_unit, expected_for, hex_color, is_picture};
-use super::{Reader, plain, shortened};
+use super::{Reader, hinted, plain, shortened};
 use crate::codes;
 use crate::css_colors::{self, named_color};
 use crate::desc::is_texture;
@@ -51,17 +51,33 @@ pub(super) fn color(value: Item<'_, '_>) -> Option<String> {
 }
 
 /// The names of a surface's colour elsewhere.
-const COLORS: [&str; 9] =
-    ["color", "colour", "albedo", "rgb", "diffuse", "base_color", "texture", "map", "diffuse_color"];
+const COLORS: [&str; 11] =
+    ["color", "colour", "albedo", "rgb", "diffuse", "base_color", "texture", "map", "diffuse_color", "pigment", "hex"];
 
-/// `{ color: (1, 0, 0) }` where a material stands: the one that it is.
-pub(super) fn color_as_material(item: Item<'_, '_>, def: &'static EnumDef) -> Option<String> {
+/// The colour of `{ color: (1, 0, 0) }`, which is nothing but that.
+fn only_color(item: Item<'_, '_>) -> Option<String> {
     let mut fields = item.fields();
-    let (key, value) = fields.next().filter(|_| fields.next().is_none() && def.noun == "material")?;
+    let (key, value) = fields.next().filter(|_| fields.next().is_none())?;
     // What has a header of its own in TOML is not in one piece.
-    let whole = item.lexeme().starts_with(['{', '(']);
-    let color = color(value).filter(|_| whole && COLORS.contains(&&*key.text()))?;
-    Some(diffuse(&color, item.syntax()))
+    let whole = item.lexeme().starts_with(['{', '(']) && COLORS.contains(&&*key.text());
+    color(value).filter(|_| whole)
+}
+
+/// `{ color: (1, 0, 0) }` where a material stands: what to do, and the edit.
+pub(super) fn color_as_material(item: Item<'_, '_>, def: &'static EnumDef) -> Option<(String, Option<Edit>)> {
+    if def.noun != "material" {
+        return None;
+    }
+    if let Some(color) = only_color(item) {
+        let replacement = diffuse(&color, item.syntax());
+        return Some((format!("write {}", hinted(&replacement)), Some(Edit { span: item.span(), replacement })));
+    }
+    let mut fields = item.fields();
+    let (key, value) = fields.next().filter(|_| fields.next().is_none())?;
+    let color = color(value).filter(|_| COLORS.contains(&&*key.text()))?;
+    let header = Some(item.lexeme()).filter(|header| header.starts_with('['))?;
+    let path = header.trim_matches(['[', ']']);
+    Some((format!("below [{path}.Diffuse] write albedo = {color}"), None))
 }
 
 fn diffuse(color: &str, syntax: Syntax) -> String {
@@ -114,11 +130,11 @@ impl Reader<'_> {
 
     /// Channels with names, `(r: 1, g: 0, b: 0)`, or the name of a colour, where a texture stands: reported here.
     pub(super) fn color_as_texture(&mut self, item: Item<'_, '_>, def: &'static EnumDef) -> bool {
-        if def.noun != "texture" {
+        if !matches!(def.noun, "texture" | "background") {
             return false;
         }
         let mended = match item.kind() {
-            Kind::Struct | Kind::Map => super::elsewhere::channels(item),
+            Kind::Struct | Kind::Map => super::elsewhere::channels(item).or_else(|| only_color(item)),
             Kind::Word => named_color(item.lexeme()).map(|hex| format!("\"{hex}\"")),
             _ => None,
         };

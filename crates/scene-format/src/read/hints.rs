@@ -412,7 +412,9 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         {
             "how samples become pixels is said by `effects: Effects(antialiasing: Gaussian(sigma: 0.5))`"
         }
-        "format" | "filename" | "bits" | "gamma" | "dpi" | "file" | "output" if def.name == "Image" => {
+        "format" | "filename" | "filepath" | "path" | "bits" | "gamma" | "dpi" | "file" | "output"
+            if def.name == "Image" || def.name == "Output" =>
+        {
             "how it is written is said on the command line: tracer render scene.ron -o picture.png, .exr, --bits 16"
         }
         "aspect" | "aspect_ratio" if def.name == "Image" => "both sides are written: `width: 640, height: 480`",

@@ -96,8 +96,11 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("camera_visible", &["visible_camera", "visible_to_camera", "primary_visibility", "primaryvisibility"]),
     ("camera_visible", &["camera_visibility", "seen_by_camera", "visible_in_camera", "visible_in_primary_ray"]),
     ("caps", &["cap", "closed", "capped", "end_caps"]),
-    ("from", &["p0", "start", "base_point", "bottom", "base", "tail", "begin", "start_point"]),
-    ("to", &["p1", "end", "cap", "apex", "tip", "top", "head", "cap_point", "end_point", "apex_point", "tip_point"]),
+    ("from", &["p0", "a", "start", "base_point", "bottom", "base", "tail", "begin", "start_point"]),
+    (
+        "to",
+        &["p1", "b", "end", "cap", "apex", "tip", "top", "head", "cap_point", "end_point", "apex_point", "tip_point"],
+    ),
     ("size", &["dimensions", "dims", "extent", "extents", "sides"]),
     ("profile", &["points", "outline", "curve_points", "path", "shape", "polygon", "silhouette", "vertices"]),
     ("outline", &["points", "profile", "shape", "path", "polygon", "rings", "contour", "contours", "vertices"]),

@@ -290,6 +290,11 @@ fn step_as_field(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Op
             let steps = all_angles(three()?);
             (!steps.is_empty()).then_some((1, steps))
         }
+        "rotateX" | "rotateY" | "rotateZ" | "rotate_x" | "rotate_y" | "rotate_z" => {
+            let letter = name.rsplit(['e', '_']).next()?;
+            let degrees = value.number().map(|_| value.lexeme())?;
+            Some((1, vec![rotation(axis(letter)?, degrees, true)]))
+        }
         "position" | "pos" | "location" | "center" | "translate" | "translation" | "move" | "offset" => {
             Some((2, vec![translation(three()?)]))
         }

@@ -111,10 +111,12 @@ impl Reader<'_> {
                 self.report(fault);
                 return Meant::Nothing;
             }
+            // What is to be written need not be missed, too.
+            let fields = def.fields.iter().filter(told).map(|field| field.name).collect();
             fault.hint = format!("write `{}`", hinted(&mended));
             fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
             self.report(fault);
-            return meant.map_or(Meant::Nothing, Meant::Field);
+            return meant.map_or(Meant::Unreadable(fields), Meant::Field);
         }
         if let Some((hint, edit)) = typed::kind_as_list(name, value, def) {
             (fault.hint, fault.edit) = (hint, edit);

@@ -154,9 +154,8 @@ impl Reader<'_> {
                 .replace("a obj", "an obj"),
         )
         .expected(choices(def, item.syntax()));
-        if let Some(mended) = super::colors_elsewhere::color_as_material(item, def) {
-            fault.hint = format!("write {}", super::hinted(&mended));
-            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        if let Some((hint, edit)) = super::colors_elsewhere::color_as_material(item, def) {
+            (fault.hint, fault.edit) = (hint, edit);
         } else if matches!(item.kind(), Kind::Struct | Kind::Map) {
             // The fields alone, without the name of the kind: say which kind has them.
             let fits = def.variants.iter().filter(|variant| {

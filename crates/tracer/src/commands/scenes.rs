@@ -2,9 +2,10 @@
 
 use crate::failure::Failure;
 use scene_format::Syntax;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// The scenes of files and folders, those of a folder in order of their names.
+/// The scenes of files and folders, those of a folder in order of their names, each once however often it is named.
 ///
 /// # Errors
 /// A folder has none.
@@ -21,6 +22,9 @@ pub fn named(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
             scenes.push(path.clone());
         }
     }
+    let mut known = HashSet::new();
+    // Links are files of their own.
+    scenes.retain(|path| known.insert(std::path::absolute(path).unwrap_or_else(|_| path.clone())));
     Ok(scenes)
 }
 

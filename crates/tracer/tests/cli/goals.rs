@@ -40,7 +40,7 @@ fn a_noise_that_few_pixels_bear_is_told() {
     version: 1,
     image: Image(width: 96, height: 64),
     camera: Camera(position: (0, 0.2, 6), look_at: (0, 0, 0), fov: 40),
-    lights: [SphereLight(center: (0.3, 1.2, 0), radius: 0.003, power: 60, camera_visible: {visible})],
+    lights: [SphereLight(center: (0.3, 1.2, 0), radius: 0.012, power: 60, camera_visible: {visible})],
     objects: [Rectangle(center: (0, 0, -2), size: (20, 20), normal: (0, 0, 1))],
 )"#
         )

@@ -500,7 +500,7 @@ fn report(
             beyond: counters.beyond,
         },
         mean_path_length: (counters.camera_rays + counters.scattered_rays) as f64 / counters.camera_rays.max(1) as f64,
-        noise: Noise::of(&film),
+        noise: Noise::of(film),
         denoise: None,
         primitives: Primitives {
             spheres: statistics.spheres,
