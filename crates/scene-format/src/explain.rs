@@ -2,7 +2,7 @@
 
 use crate::examples::{lines, snippet};
 use crate::expression;
-use crate::read::{PICK, REPEAT, everyday, expected, squeezed};
+use crate::read::{PICK, REPEAT, everyday, expected, squeezed, thing};
 use crate::reference::reference;
 use crate::schema::{StructDef, prose};
 use std::fmt::Write;
@@ -98,6 +98,8 @@ pub fn explain_word(word: &str) -> Option<String> {
     if word.len() > 2 {
         forms.push(format!("{word}s"));
     }
+    // `camera.fov`, as `--set` has it.
+    forms.extend(word.rsplit_once('.').map(|(_, field)| field.to_owned()));
     forms.iter().find_map(|form| explained(form, &pieces))
 }
 
@@ -164,6 +166,8 @@ fn explained(word: &str, pieces: &[Piece<'_>]) -> Option<String> {
     let apart = if out.is_empty() { "" } else { "\n" };
     if let Some((call, does)) = expression::function(word) {
         let _ = writeln!(out, "{apart}{call}\n  {does}. It stands in expressions, as in \"={word}(..)\".");
+        // `floor` is also what one stands on.
+        thing(word).iter().for_each(|line| out += &format!("\n{line}\n"));
     } else if let Some(means) = expression::constant(word) {
         let _ = writeln!(out, "{apart}{word}, in expressions: {means}.");
     }

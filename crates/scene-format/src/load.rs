@@ -52,7 +52,7 @@ pub enum LoadError {
 }
 
 fn errors(diagnostics: &Diagnostics) -> usize {
-    diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count()
+    diagnostics.iter().filter(|fault| fault.severity == Severity::Error && fault.code != codes::TOO_MANY).count()
 }
 
 /// Reads a scene file, its syntax told by the extension (else by what it looks like).

@@ -157,9 +157,29 @@ pub fn texts(diagnostics: &[Diagnostic], sources: &[Source], style: Style) -> Ve
     let others = grouped(diagnostics, &lines);
     let told = diagnostics.iter().zip(&others).enumerate();
     told.filter_map(|(index, (diagnostic, others))| {
-        Some((index, renderer.render(&[group(diagnostic, &lines, others.as_ref()?)])))
+        Some((index, without_nameless(renderer.render(&[group(diagnostic, &lines, others.as_ref()?)]))))
     })
     .collect()
+}
+
+/// A text without the line where the renderer names the file of an excerpt that has no name: of a line that was cut, its
+/// name stands above.
+fn without_nameless(text: String) -> String {
+    let is_nameless = |line: &str| {
+        let mut colored = false;
+        let shown = line.chars().filter(|&c| {
+            colored |= c == '\u{1b}';
+            let plain = !colored;
+            colored &= c != 'm';
+            plain && !c.is_whitespace()
+        });
+        shown.eq(":::".chars())
+    };
+    if !text.contains(":::") {
+        return text;
+    }
+    let lines: Vec<&str> = text.lines().filter(|line| !is_nameless(line)).collect();
+    lines.join("\n")
 }
 
 /// A piece of a source that is shown: whole lines, long ones cut.

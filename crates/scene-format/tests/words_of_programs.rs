@@ -390,7 +390,7 @@ fn one_mistake_in_fields_and_kinds() {
         (format!("background: 1, camera: Camera(transform: [Matrix(rows: {rows})])"), "write `matrix: ((1, 0, 0, 0)"),
         ("background: 1, vars: (h: 2)".to_owned(), "write { \"h\": 2 }"),
         ("background: 1, output: \"a.png\"".to_owned(), "-o picture.png"),
-        ("background: HosekSky(turbidity: 3)".to_owned(), "no sky by numbers"),
+        ("background: HosekSky(turbidity: 3)".to_owned(), "a large sphere that shines"),
         ("background: 1, effects: Effects(tone_map: ACES)".to_owned(), "a curve of that kind is `Filmic`"),
     ];
     let cases: Vec<(&str, &str)> = cases.iter().map(|(written, told)| (written.as_str(), *told)).collect();

@@ -350,7 +350,7 @@ pub struct CompareArgs {
     pub a: PathBuf,
     /// Picture or folder that it is measured against
     pub b: PathBuf,
-    /// Write a map of the difference in false colours (.png)
+    /// Write a map of FLIP's difference (.png): black none, red half, yellow all
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Exit code 1 above it (repeatable)

@@ -184,7 +184,9 @@ pub fn meant(mut arguments: Vec<OsString>) -> Vec<OsString> {
                 arguments.push("--help".into());
             }
         },
-        Some(scene) if is_path(scene) && of_file(scene).is_none() => arguments.insert(1, "render".into()),
+        Some(scene) if scene == "-" || is_path(scene) && of_file(scene).is_none() => {
+            arguments.insert(1, "render".into());
+        }
         _ => {}
     }
     arguments
@@ -195,13 +197,15 @@ fn option_elsewhere(option: &str) -> Option<&'static str> {
     let name = option.split('=').next().unwrap_or(option).to_ascii_lowercase();
     Some(match name.as_str() {
         "--spp" | "--samples-per-pixel" | "--nsamples" | "--pixelsamples" | "-spp" => "--samples 64",
-        "--width" | "--height" | "--resolution" | "--res" | "-w" => "--size 640x480",
+        "--width" | "--height" | "--resolution" | "--res" => "--size 640x480",
         "--out" | "--outfile" | "--outputfile" | "--output-file" | "--image" => "-o picture.png",
         "--nthreads" | "--jobs" | "--cores" | "--cpus" => "--threads 4",
         "--preview" | "--quick" | "--draft" | "--fast" => "--samples 4 --size 160x120",
-        "--fov" | "--define" | "-d" | "--depth" | "--max-depth" | "--bounces" => {
-            "--set camera.fov=40, for any field of the scene"
-        }
+        "--fov" | "--define" | "-d" => "--set camera.fov=40, for any field of the scene",
+        "--depth" | "--max-depth" | "--max_depth" | "--bounces" | "--max-bounces" => "--set render.max_bounces=8",
+        "--transparent" | "--alpha" | "--rgba" => "--set output.alpha=true",
+        "-w" | "--werror" | "--strict" | "--fail-on-warnings" | "--warnings-as-errors" => "--deny-warnings",
+        "--dpi" => "--size 1800x1200, which are 6 by 4 inches at 300 dots per inch",
         "--verbose-level" | "--log-level" | "--debug" => "--verbose",
         "--pixel-debug" | "--debug-pixel" | "--pixelmaterial" => "`tracer inspect SCENE --pixel 12,34`",
         "--view" | "--cam" => "--camera NAME",
@@ -248,14 +252,14 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
             }
             match word.as_deref() {
                 Some("version") => Some("the version is told by tracer --version".to_owned()),
-                word => scene.or_else(|| word.and_then(of_file)),
+                word => word.and_then(of_file).or(scene),
             }
         }
         ErrorKind::UnknownArgument => {
             // An option of a command, without the command.
             let before = words.iter().all(|word| Cli::command().find_subcommand(word).is_none());
             let option = context(&error, ContextKind::InvalidArg);
-            let elsewhere = option.as_deref().and_then(option_elsewhere).map(|ours| format!("here it is {ours}"));
+            let elsewhere = option.as_deref().and_then(option_elsewhere).map(|ours| here(ours, words.first()));
             let of_option = || option.as_deref().filter(|_| before).and_then(of_option);
             let of_others = || of_other_commands(words.first()?, option.as_deref().filter(|_| !before)?);
             if elsewhere.is_some() {
@@ -275,6 +279,16 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![StyledStr::from(tip)]));
     }
     error
+}
+
+/// What is said of an option of ours that was called otherwise: of a command that has it not, who has.
+fn here(ours: &str, command: Option<&String>) -> String {
+    let name = ours.split([' ', ',']).next().unwrap_or(ours);
+    let cli = Cli::command();
+    match command.and_then(|word| cli.find_subcommand(word)).filter(|of| name.starts_with('-') && !takes(of, name)) {
+        Some(of) => of_other_commands(of.get_name(), name).unwrap_or_else(|| format!("elsewhere it is {ours}")),
+        None => format!("here it is {ours}"),
+    }
 }
 
 /// The command that a mistyped word is nearest to; within `golden` and `farm`, one of theirs.

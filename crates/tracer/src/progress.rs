@@ -133,6 +133,10 @@ impl<'a> Watch<'a> {
     /// Takes the bar away.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
+            // Of what took no time none is seen, not even while it is taken away.
+            if self.begun.elapsed() < NO_BAR_BEFORE {
+                bar.set_draw_target(ProgressDrawTarget::hidden());
+            }
             bar.finish_and_clear();
         }
     }

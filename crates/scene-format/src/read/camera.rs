@@ -68,7 +68,7 @@ pub(crate) fn are_cameras(item: Item<'_, '_>) -> bool {
 }
 
 /// What is said of a projection that is written as a kind of camera; `None`: the name is none.
-pub(super) fn projection_elsewhere(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<String> {
+pub(super) fn projection_elsewhere(name: &str, def: &'static StructDef, item: Item<'_, '_>) -> Option<String> {
     let kind =
         Projection::DEF.variant(name).map(|kind| kind.name).or_else(|| kind_elsewhere(name, &Projection::DEF))?;
     let written = match kind {
@@ -77,7 +77,14 @@ pub(super) fn projection_elsewhere(name: &str, def: &'static StructDef, syntax: 
         "Panorama" => "Panorama",
         _ => return None,
     };
-    (def.name == "Camera").then(|| match syntax {
+    // With the person's own number, where there is nothing else.
+    let mut fields = item.fields();
+    let number = fields.next().filter(|(_, value)| value.number().is_some() && fields.next().is_none());
+    let own = number
+        .filter(|(key, _)| written.contains(&*key.text()))
+        .map(|(key, value)| format!("{kind}({}: {})", key.text(), value.lexeme()));
+    let written = own.unwrap_or_else(|| written.to_owned());
+    (def.name == "Camera").then(|| match item.syntax() {
         Syntax::Ron => format!("write Camera(projection: {written})"),
         _ => format!("how it projects is its `projection`, {kind}"),
     })

@@ -97,6 +97,8 @@ pub(super) fn axis(word: &str) -> Option<[&'static str; 3]> {
         None => ("1", word.trim_start_matches('+')),
     };
     match letter {
+        "up" => Some(["0", one, "0"]),
+        "down" if one == "1" => Some(["0", "-1", "0"]),
         "x" | "X" => Some([one, "0", "0"]),
         "y" | "Y" => Some(["0", one, "0"]),
         "z" | "Z" => Some(["0", "0", one]),

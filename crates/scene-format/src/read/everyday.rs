@@ -31,7 +31,50 @@ const WORDS: &[(&[&str], &str)] = &[
     (&["reflection", "reflective", "shiny"], "what reflects has the material Mirror, Conductor or BlinnPhong"),
     (&["color", "colour", "colors", "colours"], "colours are red, green and blue, (0.8, 0.2, 0.1), or \"#d03a2b\""),
     (&["wall", "room", "house"], "walls are Boxes or Rectangles; a Box seen from inside is a room"),
-    (&["water"], "water is Transparent(ior: 1.33)"),
+    (
+        &["water", "wine", "liquid", "drink", "juice", "nested glass", "nested"],
+        "water is Transparent(ior: 1.33), wine has a `transmittance`, too; in a glass it reaches a little into the glass \
+         around it, as in scenes/cookbook/wine_glass.ron",
+    ),
+    (
+        &["motion blur", "motionblur", "motion_blur"],
+        "what moves is blurred while the camera's `shutter` is open, a share of a frame: `shutter: 0.5` with an \
+         `animation`",
+    ),
+    (
+        &["transparent background", "no background", "alpha channel", "cutout"],
+        "a picture without its background has `output: Output(alpha: true)`, or `--set output.alpha=true`",
+    ),
+    (
+        &["checkered floor", "chequered floor", "chessboard", "checkerboard floor", "tiles"],
+        "a checkered floor is Plane(material: Diffuse(albedo: Checkerboard()))",
+    ),
+    (
+        &["lampshade", "shade"],
+        "a lampshade is an open Cylinder or Cone, or a Lathe, around a small lamp: scenes/cookbook/lampshade.ron",
+    ),
+    (
+        &["dpi", "ppi", "print"],
+        "pixels count: 6 by 4 inches at 300 dots per inch are `--size 1800x1200`; the file does not say how large it is \
+         printed",
+    ),
+    (
+        &["resume", "interrupt", "continue", "checkpoint"],
+        "`tracer render scene.ron --checkpoint c.tracer` keeps what was rendered, and `--resume c.tracer` goes on",
+    ),
+    (
+        &["tomato", "apple", "fruit", "egg"],
+        "fruit is a Sphere, a little flattened by `transform: [Scale((1, 0.8, 1))]`, or a Lathe",
+    ),
+    (&["gamma", "srgb"], "pictures are sRGB; colours as \"#d03a2b\" are sRGB, too, and (r, g, b) are linear"),
+    (
+        &["frosted", "frosted glass", "translucent", "milk glass"],
+        "there is no rough glass: the nearest are Transparent and Diffuse",
+    ),
+    (
+        &["aspect", "pixel aspect", "non-square pixels", "fx", "fy"],
+        "pixels are square: of a camera with fx and fy that differ, stretch the picture afterwards",
+    ),
     (
         &["table", "chair", "furniture", "shelf", "desk", "bench", "stool", "cupboard"],
         "furniture is a Group of Boxes and Cylinders; legs are one of them with \
@@ -118,11 +161,16 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
 ];
 
+/// What there is for a thing of every day.
+pub(crate) fn thing(word: &str) -> Option<&'static str> {
+    WORDS.iter().find(|(words, _)| words.contains(&word)).map(|(_, text)| *text)
+}
+
 /// What there is for a word of every day, a line each; none where nobody knows it.
 pub(crate) fn everyday(word: &str) -> Vec<String> {
     let lower = word.trim().to_ascii_lowercase();
-    if let Some((_, text)) = WORDS.iter().find(|(words, _)| words.contains(&lower.as_str())) {
-        return vec![(*text).to_owned()];
+    if let Some(text) = thing(&lower) {
+        return vec![text.to_owned()];
     }
     let kinds = [Object::TYPE, Material::TYPE, Light::TYPE, Transform::TYPE, Layer::TYPE].into_iter().chain(textures());
     let kinds: Vec<&'static EnumDef> = kinds.filter_map(enum_of).collect();

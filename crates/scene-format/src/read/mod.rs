@@ -38,7 +38,7 @@ mod vector;
 
 pub(crate) use camera::are_cameras;
 pub(crate) use check::{Whole, scene};
-pub(crate) use everyday::everyday;
+pub(crate) use everyday::{everyday, thing};
 pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
 pub(crate) use nameless::field_of;
@@ -247,7 +247,7 @@ impl<'r> Reader<'r> {
         let message = format!("{} is called `{}` here, not `{name}`", article_free(def.noun), def.name);
         let mut fault = Diagnostic::error(codes::UNKNOWN_VARIANT, item.head(), message)
             .expected(format!("{}(..), or brackets without a name", def.name));
-        match camera::projection_elsewhere(name, def, item.syntax()) {
+        match camera::projection_elsewhere(name, def, item) {
             Some(way) => fault.hint = way,
             // An object alone.
             None if def.name == Scene::DEF.name && Object::DEF.variant(name).is_some() => {
@@ -394,7 +394,9 @@ impl<'r> Reader<'r> {
         }
         let written = || {
             let all = def.fields.iter().enumerate().map(|(slot, field)| (field, fields.get(slot)));
-            all.filter(|(field, slot)| slot.is_some() && def.exactly_one.contains(&field.name))
+            // `None` says that it is another one.
+            let says = |slot: &Option<Item<'_, '_>>| slot.is_some_and(|item| !item.is_word("None"));
+            all.filter(move |(field, slot)| says(slot) && def.exactly_one.contains(&field.name))
         };
         let choice = suggest::list(def.exactly_one);
         match written().count() {
@@ -409,16 +411,10 @@ impl<'r> Reader<'r> {
                     written().filter_map(|(field, slot)| slot.map(|item| (item.head(), field.name))).collect();
                 slots.sort();
                 let [(at, first), (span, second), ..] = slots[..] else { return };
-                self.report(
-                    Diagnostic::error(
-                        codes::EXACTLY_ONE,
-                        span,
-                        format!("{} has both `{first}` and `{second}`", def.noun),
-                    )
-                    .expected(format!("exactly one of {choice}"))
-                    .hint("remove all but one")
-                    .label(at, format!("`{first}` is written here")),
-                );
+                let message = format!("{} has both `{first}` and `{second}`", def.noun);
+                let fault = Diagnostic::error(codes::EXACTLY_ONE, span, message);
+                let fault = fault.expected(format!("exactly one of {choice}")).hint("remove all but one");
+                self.report(fault.label(at, format!("`{first}` is written here")));
             }
         }
     }

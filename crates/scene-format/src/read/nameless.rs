@@ -41,7 +41,7 @@ impl Reader<'_> {
             fault.hint = format!("write `{}`", hinted(&mended));
             fault.edit = Some(Edit { span: whole, replacement: mended });
         } else if let [only] = def.fields {
-            fault.hint = format!("write `{}: value`", only.name);
+            fault.hint = format!("write `{}: {}`", only.name, hinted(first.lexeme()));
         } else {
             fault.hint = format!("write the name of each: {}", super::field_words(def));
         }

@@ -2,7 +2,7 @@
 
 use super::hints::{Hints, kind_elsewhere};
 use super::synonyms::squeezed;
-use crate::desc::{Material, Object};
+use crate::desc::{Material, Object, PatternWords, is_texture};
 use crate::schema::EnumDef;
 
 /// Objects of other programs.
@@ -60,6 +60,9 @@ pub(super) const OBJECTS: Hints = &[
 
 /// Materials of other programs.
 pub(super) const MATERIALS: Hints = &[
+    (&["water", "liquid", "wine", "sea"], "water is Transparent(ior: 1.33)"),
+    (&["diamond", "gem", "crystal"], "a diamond is Transparent(ior: 2.42)"),
+    (&["ice"], "ice is Transparent(ior: 1.31)"),
     (
         &["translucent", "difftrans", "subsurface", "sss", "skin", "wax", "cloth", "velvet", "sheen", "hair", "paper"],
         "there is no such material; the nearest are `Diffuse` and, for what lets light through, `Transparent(ior: \
@@ -154,13 +157,13 @@ pub(super) const LIGHTS: Hints = &[
             "area",
             "disklight",
             "quad",
-            "meshlight",
             "emission",
             "emissive",
             "emitter",
         ],
         "a flat lamp is an object that shines: `Rectangle(material: Emissive(radiance: 5))` in `objects`",
     ),
+    (&["meshlight"], "a mesh that shines is a `Mesh` with `material: Emissive(radiance: 5)`, in `objects`"),
     (&["pointlight", "point", "omni"], "a point light is a small sphere: radius: 0.01, intensity: .. in W/sr"),
     (
         &["spotlight", "spot", "ies", "goniometric", "goniometriclight", "projector", "projectionlight"],
@@ -286,7 +289,9 @@ const BACKGROUNDS: Hints = &[
             "skysphere",
             "physicalsky",
         ],
-        "there is no sky by numbers: it is one colour, (0.5, 0.7, 1), or a picture, Environment(file: \"sky.hdr\")",
+        "a sky is one colour, (0.5, 0.7, 1), a picture, Environment(file: \"sky.hdr\"), or a large sphere that shines: \
+         Sphere(center: (0, 0, 0), radius: 300, material: Emissive(radiance: 1, two_sided: true, color: Gradient(a: (1, \
+         0.8, 0.6), b: (0.3, 0.5, 1))))",
     ),
     (
         &["color", "colour", "constant", "rgb", "solid", "uniform", "ambient", "vec3", "srgb"],
@@ -337,7 +342,13 @@ pub(super) fn of_another_list(name: &str, def: &'static EnumDef) -> Option<&'sta
         other.variants.iter().any(|variant| variant.name.eq_ignore_ascii_case(name))
             || kind_elsewhere(name, other).is_some()
     };
+    let texture = || is_texture(name) || kind_elsewhere(name, &PatternWords::DEF).is_some();
     match def.noun {
+        // Of lights themselves.
+        "light" if kind_elsewhere(name, def).is_some() => None,
+        "object" if texture() && kind_elsewhere(name, def).is_none() => {
+            Some("that is a texture, which a material has: Box(size: 1, material: Diffuse(albedo: Checkerboard()))")
+        }
         "object" if is_of(&Material::DEF) => {
             Some("that is a material, which an object has: `Sphere(center: .., radius: .., material: ..)`")
         }

@@ -1,6 +1,6 @@
 //! Transforms and placements in the ways of other programs: `RotateY(30)`, `Translate(x: 1)`, `[(1, 0, 0)]`.
 
-use super::elsewhere::{Fields, axis, degrees, fields_named, numbers};
+use super::elsewhere::{Fields, axis, degrees, fields_named, matrix_rows, numbers};
 use super::synonyms::synonyms;
 use super::together::{Together, in_place_of};
 use super::unknown::Unknown;
@@ -113,6 +113,16 @@ impl Reader<'_> {
             };
             fault = fault.hint(format!("write {mended}"));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else if let Some(rows) = matrix_rows(item) {
+            let mended = match item.syntax() {
+                Syntax::Ron => format!("[Matrix({rows})]"),
+                syntax => {
+                    let rows = rows.trim_start_matches("rows: ").replace('(', "[").replace(')', "]");
+                    syntax.of_toml(format!("[{{ Matrix = {{ rows = {rows} }} }}]")).into_owned()
+                }
+            };
+            fault = fault.hint(format!("write {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
         } else {
             fault = fault.hint("rows of numbers stand in a placements file: `placements: \"copies.txt\"`");
         }
@@ -196,10 +206,18 @@ fn meant_transform(name: &str, body: Item<'_, '_>) -> Option<Meant> {
             }
         }
         "translate" | "move" | "translation" if named => {
+            let vector = ["by", "offset", "vector", "value", "to", "delta", "v"];
+            let mut fields = body.fields();
+            if let (Some((key, by)), None) = (fields.next(), fields.next())
+                && vector.contains(&&*key.text())
+            {
+                return Some(translation(<[&str; 3]>::try_from(numbers(by)?).ok()?));
+            }
             let mut by = ["0"; 3];
             for (key, value) in body.fields().take(4) {
                 let at = ["x", "y", "z"].iter().position(|name| key.text() == **name)?;
-                by[at] = value.number().map(|_| value.lexeme())?;
+                let reckoned = value.kind() == Kind::Text && value.text().starts_with('=');
+                by[at] = Some(value.lexeme()).filter(|_| reckoned || value.number().is_some())?;
             }
             body.fields().next()?;
             Some(translation(by))

@@ -103,6 +103,10 @@ impl Reader<'_> {
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, key.span(), message);
         let (hint, span, replacement) = match header.trim_end_matches([']', ' ']).rsplit_once('.') {
             Some((path, _)) if header.starts_with('[') => (format!("write {path}]"), value.span(), format!("{path}]")),
+            None if header.starts_with('[') => {
+                self.report(fault.hint(format!("leave {header} out: its fields begin the file")));
+                return Some(value);
+            }
             _ => (format!("leave out `{}` and the brackets around it", def.name), item.span(), header.to_owned()),
         };
         fault.edit = Some(Edit { span, replacement });

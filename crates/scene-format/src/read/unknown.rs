@@ -100,23 +100,7 @@ impl Reader<'_> {
             return Meant::Unreadable(together.fields);
         }
         if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def) {
-            let told = |field: &&FieldDef| {
-                let begins = mended.starts_with(&Fields(value.syntax()).name(field.name));
-                // The size of a picture is two fields.
-                begins || def.name == "Image" && matches!(field.name, "width" | "height")
-            };
-            let written = |field: &&FieldDef| unknown.is_written(field.name, mistyped);
-            if let Some(written) = def.fields.iter().filter(told).find(written) {
-                fault.hint = is_there(written.name);
-                self.report(fault);
-                return Meant::Nothing;
-            }
-            // What is to be written need not be missed, too.
-            let fields = def.fields.iter().filter(told).map(|field| field.name).collect();
-            fault.hint = format!("write `{}`", hinted(&mended));
-            fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
-            self.report(fault);
-            return meant.map_or(Meant::Unreadable(fields), Meant::Field);
+            return self.written_otherwise(fault, unknown, mistyped, (meant, mended));
         }
         if let Some((hint, edit)) = typed::kind_as_list(name, value, def) {
             (fault.hint, fault.edit) = (hint, edit);
@@ -172,6 +156,34 @@ impl Reader<'_> {
 }
 
 impl Reader<'_> {
+    /// What says by another quantity what a field of ours says: reports the way.
+    fn written_otherwise(
+        &mut self,
+        mut fault: Diagnostic,
+        unknown: &Unknown<'_, '_, '_>,
+        mistyped: &Mistyped<'_, '_>,
+        (meant, mended): (Option<&'static str>, String),
+    ) -> Meant {
+        let &Unknown { key, value, def, .. } = unknown;
+        let told = |field: &&FieldDef| {
+            let begins = mended.starts_with(&Fields(value.syntax()).name(field.name));
+            // The size of a picture is two fields.
+            begins || def.name == "Image" && matches!(field.name, "width" | "height")
+        };
+        let written = |field: &&FieldDef| unknown.is_written(field.name, mistyped);
+        if let Some(written) = def.fields.iter().filter(told).find(written) {
+            fault.hint = is_there(written.name);
+            self.report(fault);
+            return Meant::Nothing;
+        }
+        // What is to be written need not be missed, too.
+        let fields = def.fields.iter().filter(told).map(|field| field.name).collect();
+        fault.hint = format!("write `{}`", hinted(&mended));
+        fault.edit = Some(Edit { span: elsewhere::whole_field(key, value), replacement: mended });
+        self.report(fault);
+        meant.map_or(Meant::Unreadable(fields), Meant::Field)
+    }
+
     /// What is said of a field that reads like one of ours, and is none.
     fn of_others_alone(&mut self, unknown: &Unknown<'_, '_, '_>) -> Option<String> {
         let &Unknown { key, value, name, item, def } = unknown;

@@ -119,7 +119,10 @@ impl Reader<'_> {
             fault = fault.hint(format!("colours have no alpha here: write {mended}"));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
         } else if at.rule.color && count == 4 {
-            fault = fault.hint("colours have no alpha here; what is seen through has the material Transparent(..)");
+            fault = fault.hint(match at.name {
+                "background" => "colours have no alpha here; a picture without background: output: Output(alpha: true)",
+                _ => "colours have no alpha here; what is seen through has the material Transparent(..)",
+            });
         }
         self.report(fault);
     }

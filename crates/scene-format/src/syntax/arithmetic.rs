@@ -255,6 +255,7 @@ pub(super) fn with_sign(number: &str, sign: char, span: Span) -> Option<Diagnost
     }
     let (mended, why) = match sign {
         // Shortest digits that read back: 0.07, where 7.0 / 100.0 gives 0.07 and 0.07 * 100 does not.
+        '%' if value > 100.0 => (format!("{}", value / 100.0), "all of it is 1"),
         '%' => (format!("{}", value / 100.0), "shares go from 0 to 1"),
         '°' => (number.to_owned(), "angles are in degrees without a sign"),
         _ => return None,

@@ -187,7 +187,8 @@ fn language(text: &str, syntax: Syntax) -> Option<Diagnostic> {
         _ => (of_others(first, rest)?, None),
     };
     let span = Span { source: 0, start: at as u32, end: (at + first.len()) as u32 };
-    let hint = hint.unwrap_or("scenes of other programs are not read; `tracer new scene.ron` starts one");
+    let mesh = name.contains("mesh").then_some("a mesh stands in a scene: Mesh(file: \"mesh.obj\")");
+    let hint = hint.or(mesh).unwrap_or("scenes of other programs are not read; `tracer new scene.ron` starts one");
     Some(
         Diagnostic::error(codes::OTHER_LANGUAGE, span, format!("this looks like {name}, not {}", syntax.name()))
             .expected("a scene in RON (.ron), TOML (.toml) or JSON (.json)")
@@ -257,6 +258,9 @@ fn of_others(first: &str, rest: &str) -> Option<&'static str> {
     let argument = after.is_empty() || after.starts_with(|c: char| c == '"' || c == '-' || c.is_ascii_digit());
     if PBRT.contains(&word) && argument {
         return Some("pbrt");
+    }
+    if matches!(word, "v" | "vn" | "vt") && argument && !after.is_empty() || word == "mtllib" {
+        return Some("a mesh in OBJ");
     }
     if first.starts_with("import ") || first.starts_with("from ") && first.contains(" import ") {
         return Some("Python");

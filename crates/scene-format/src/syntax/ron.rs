@@ -269,12 +269,12 @@ impl<'p> Parser<'p> {
         }
         let character = self.rest().chars().next().unwrap_or(' ');
         let found = self.span(start, start + character.len_utf8());
-        let mut fault = Diagnostic::error(
-            codes::UNEXPECTED_CHARACTER,
-            found,
-            format!("a value cannot begin with `{}`", character.escape_debug()),
-        )
-        .expected("a number, a \"text\", a word, or one of ( [ {");
+        let message = format!("a value cannot begin with `{}`", character.escape_debug());
+        let mut fault = match character.is_control() {
+            true => super::means_nothing(found, character),
+            false => Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message)
+                .expected("a number, a \"text\", a word, or one of ( [ {"),
+        };
         let after = &self.rest()[character.len_utf8()..];
         if matches!(character, '−' | '–' | '—' | '＋') && after.starts_with(|c: char| c.is_ascii_digit() || c == '.')
         {

@@ -31,6 +31,10 @@ pub(super) fn way(number: Option<&str>, unit: &str) -> String {
 
 /// Says of what begins like a number and ends in a unit what to write.
 pub(super) fn joined(mut fault: Diagnostic, lexeme: &str) -> Diagnostic {
+    let side = |side: &&str| side.parse::<u32>().is_ok();
+    if let Some((width, height)) = lexeme.split_once(['x', 'X']).filter(|(width, height)| side(width) && side(height)) {
+        return fault.hint(format!("the sides of a picture are two numbers: width: {width}, height: {height}"));
+    }
     let Some((number, unit)) = parted(lexeme) else { return fault };
     fault = fault.hint(way(Some(number), unit));
     let same = ["deg", "degree", "degrees", "w", "watt", "watts", "px", "s", "sec", "seconds", "m"];

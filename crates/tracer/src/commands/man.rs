@@ -22,8 +22,10 @@ pub(super) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
     let (mut page, synopsis) = (Vec::new(), synopsis(&command));
     clap_mangen::Man::new(command).source(Provenance::SOFTWARE).manual("tracer").render(&mut page)?;
     // What stands behind the options are examples.
-    let page =
-        with_synopsis(&String::from_utf8_lossy(&page), &synopsis).replace(".SH EXTRA", ".SH EXAMPLES") + SECTIONS;
+    let page = with_synopsis(&String::from_utf8_lossy(&page), &synopsis).replace(".SH EXTRA", ".SH EXAMPLES");
+    // A page has all commands.
+    let page: String = page.split_inclusive('\n').filter(|line| !line.starts_with("More: ")).collect();
+    let page = page + SECTIONS;
     if std::io::stdout().is_terminal() && shown(&page) {
         return Ok(ExitCode::from(exit::DONE));
     }
