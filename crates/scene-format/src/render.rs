@@ -162,8 +162,8 @@ pub fn texts(diagnostics: &[Diagnostic], sources: &[Source], style: Style) -> Ve
     .collect()
 }
 
-/// A text without the line where the renderer names the file of an excerpt that has no name: of a line that was cut, its
-/// name stands above.
+/// A text without the line where the renderer names the file of an excerpt that has no name: of a line that was cut,
+/// its name stands above.
 fn without_nameless(text: String) -> String {
     let is_nameless = |line: &str| {
         let mut colored = false;

@@ -33,8 +33,8 @@ const WORDS: &[(&[&str], &str)] = &[
     (&["wall", "room", "house"], "walls are Boxes or Rectangles; a Box seen from inside is a room"),
     (
         &["water", "wine", "liquid", "drink", "juice", "nested glass", "nested"],
-        "water is Transparent(ior: 1.33), wine has a `transmittance`, too; in a glass it reaches a little into the glass \
-         around it, as in scenes/cookbook/wine_glass.ron",
+        "water is Transparent(ior: 1.33), wine has a `transmittance`, too; in a glass it reaches a little into the \
+         glass around it, as in scenes/cookbook/wine_glass.ron",
     ),
     (
         &["motion blur", "motionblur", "motion_blur"],
@@ -55,8 +55,8 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
     (
         &["dpi", "ppi", "print"],
-        "pixels count: 6 by 4 inches at 300 dots per inch are `--size 1800x1200`; the file does not say how large it is \
-         printed",
+        "pixels count: 6 by 4 inches at 300 dots per inch are `--size 1800x1200`; the file does not say how large it \
+         is printed",
     ),
     (
         &["resume", "interrupt", "continue", "checkpoint"],

@@ -290,8 +290,8 @@ const BACKGROUNDS: Hints = &[
             "physicalsky",
         ],
         "a sky is one colour, (0.5, 0.7, 1), a picture, Environment(file: \"sky.hdr\"), or a large sphere that shines: \
-         Sphere(center: (0, 0, 0), radius: 300, material: Emissive(radiance: 1, two_sided: true, color: Gradient(a: (1, \
-         0.8, 0.6), b: (0.3, 0.5, 1))))",
+         Sphere(center: (0, 0, 0), radius: 300, material: Emissive(radiance: 1, two_sided: true, color: Gradient(a: \
+         (1, 0.8, 0.6), b: (0.3, 0.5, 1))))",
     ),
     (
         &["color", "colour", "constant", "rgb", "solid", "uniform", "ambient", "vec3", "srgb"],
