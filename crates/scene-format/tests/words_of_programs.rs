@@ -128,7 +128,7 @@ fn in_the_scene_and_its_groups() {
         ("background: \"a.hdr\"", "Environment(file: \"a.hdr\")"),
         ("background: black", "write \"#000000\""),
         ("background: Color(1, 1, 1)", "a colour stands alone"),
-        ("background: 1, camera: Orthographic(height: 3)", "Camera(projection: Orthographic(height: 8))"),
+        ("background: 1, camera: Orthographic(height: 3)", "Camera(projection: Orthographic(height: 3))"),
         ("background: 1, spp: 3", "that is `samples` here, a field of `render`"),
         ("background: 1, maxdepth: 3", "that is `max_bounces` here, a field of `render`"),
         ("background: 1, bsdfs: {}", "did you mean `materials`?"),

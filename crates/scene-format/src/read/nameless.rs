@@ -41,7 +41,8 @@ impl Reader<'_> {
             fault.hint = format!("write `{}`", hinted(&mended));
             fault.edit = Some(Edit { span: whole, replacement: mended });
         } else if let [only] = def.fields {
-            fault.hint = format!("write `{}: {}`", only.name, hinted(first.lexeme()));
+            let is_plain = matches!(first.kind(), Kind::Text | Kind::Integer | Kind::Float) && values.len() == 1;
+            fault.hint = format!("write `{}: {}`", only.name, if is_plain { first.lexeme() } else { "value" });
         } else {
             fault.hint = format!("write the name of each: {}", super::field_words(def));
         }

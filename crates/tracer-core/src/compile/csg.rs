@@ -7,7 +7,7 @@ use super::assets::Sources;
 use super::bodies::{Convex, Extent, Side};
 use super::curved::{Written, written};
 use super::materials::MaterialBuilder;
-use super::placing::{Given, Subject, check, place, place_all};
+use super::placing::{Given, Maps, Subject, check, place, place_all};
 use super::settled::Settled;
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
 use scene_format::desc::{MaterialRef, Object, solid_cannot_shine};
@@ -52,7 +52,7 @@ pub struct SolidObject {
     operands: Vec<OperandWritten>,
     parts: Vec<PartWritten>,
     /// From where it is written to the world, one per copy.
-    maps: Vec<DAffine3>,
+    maps: Maps,
 }
 
 /// Lower and upper corner.
@@ -88,7 +88,7 @@ pub fn load(
         let mut operands = Vec::new();
         let node = reader.node(object, &format!("objects[{number}]"), None, &mut operands);
         let parts = parts(&operands);
-        all.push(SolidObject { number, node, operands, parts, maps: Vec::new() });
+        all.push(SolidObject { number, node, operands, parts, maps: Maps::new() });
     }
     all
 }

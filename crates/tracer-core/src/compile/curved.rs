@@ -3,7 +3,7 @@
 
 use super::assets::Sources;
 use super::materials::MaterialBuilder;
-use super::placing::{Given, Subject, check, place_all, sides};
+use super::placing::{Given, Maps, Subject, check, place_all, sides};
 use super::settled::Settled;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
@@ -118,7 +118,7 @@ pub struct Curved {
     /// What it is in its object space.
     pub unit: UnitShape,
     /// From there to the world, one per copy.
-    pub maps: Vec<DAffine3>,
+    pub maps: Maps,
     /// From there to where it is before its transforms; `None` where it has none, and no copies.
     local: Option<Box<DAffine3>>,
     /// Index of its material.
@@ -159,7 +159,7 @@ pub fn load(
             emissive = None;
         }
         let local = (!plain).then(|| Box::new(local));
-        all.push(Curved { number, unit, maps: Vec::new(), local, material, emissive });
+        all.push(Curved { number, unit, maps: Maps::new(), local, material, emissive });
     }
     all
 }

@@ -1,7 +1,7 @@
 //! Where the objects of triangles are.
 
 use super::loading::Loaded;
-use super::placing::{Given, Subject, check, place_all};
+use super::placing::{Given, Maps, Subject, check, place_all};
 use super::polygonal::{Geometry, Polygonal, polygonal};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use tracer_mesh::MeshData;
 /// Where the objects of triangles are.
 pub struct Placed {
     /// Per object: from the frame of its triangles to the world, one per copy.
-    pub maps: Vec<Vec<DAffine3>>,
+    pub maps: Vec<Maps>,
     /// Per object: the corners of its box in the frame of its triangles.
     pub boxes: Vec<[DVec3; 2]>,
 }
@@ -25,7 +25,7 @@ pub fn place(given: Given<'_>, loaded: &Loaded, diagnostics: &mut Diagnostics) -
         let Some(data) = file.map(|f| &loaded.files[f]) else {
             // A placements file is read even when the mesh is missing: all faults in one run.
             place(&Subject::unknown(object.noun));
-            placed.maps.push(Vec::new());
+            placed.maps.push(Maps::new());
             placed.boxes.push([DVec3::ZERO; 2]);
             continue;
         };
@@ -70,7 +70,7 @@ pub fn with_subject<T>(
 impl Placed {
     /// Where the copies of an object of triangles are.
     pub fn maps_of(&self, object: usize) -> &[DAffine3] {
-        self.maps.get(object).map_or(&[], Vec::as_slice)
+        self.maps.get(object).map_or(&[], Maps::as_slice)
     }
 
     /// The corners of its box, in the frame of its triangles.

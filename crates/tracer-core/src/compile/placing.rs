@@ -7,6 +7,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use scene_format::desc::{Extent, Moved, Object, Placements, Transform};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
+use smallvec::SmallVec;
 use tracer_mesh::placements::rotation;
 
 /// What steps ask of what they move.
@@ -47,6 +48,10 @@ pub struct Given<'a> {
     pub settled: &'a Settled,
 }
 
+/// From an object's own frame to the world, one per copy. Of millions most have one: those need no memory of their own,
+/// which would stay with the program when it is given back piece by piece.
+pub type Maps = SmallVec<[DAffine3; 1]>;
+
 /// From an object's own frame to the world: its transforms and, after them, each copy's.
 pub fn place_all(
     given: Given<'_>,
@@ -54,11 +59,14 @@ pub fn place_all(
     placements: &Placements,
     subject: &Subject<'_>,
     diagnostics: &mut Diagnostics,
-) -> Vec<DAffine3> {
+) -> Maps {
     let map = place(transforms, subject, diagnostics);
+    if matches!(placements, Placements::One) {
+        return Maps::from_buf([DAffine3::IDENTITY * (map * subject.local)]);
+    }
     let copies = subject.under(&map, |moved| copies(given, placements, None, moved, diagnostics));
     let map = map * subject.local;
-    copies.into_iter().map(|copy| copy * map).collect()
+    Maps::from_vec(copies.into_iter().map(|copy| copy * map).collect())
 }
 
 /// From where an object of a group is written to the group, before that moves it, one map for each of its copies there.

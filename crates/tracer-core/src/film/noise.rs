@@ -44,11 +44,16 @@ pub struct FewNoisy {
     pub rest: f64,
 }
 
-/// The few are no more than one in so many pixels.
+/// The few are no more than one in so many pixels, or this many: a lamp that is smaller than a pixel is seen in those
+/// around it, too, where the filter reaches it.
 const ONE_IN: usize = 1000;
+const FEWEST: usize = 16;
 
-/// What the others bear of the squared noise: without the few there is a third of the noise left.
-const LEFT: f64 = 1.0 / 9.0;
+/// Without them the noise is so many times smaller at least.
+const FALLS: f64 = 3.0;
+
+/// Those that are named leave so many times the least that any few would leave.
+const MORE: f64 = 1.5;
 
 /// What is known of the noise from the last octave of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -208,31 +213,36 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// The pixels that bear nearly all of the noise, where they are few: at most one in a thousand, or one.
+    /// The few pixels without which the noise is a third or less of what it is; `None` where there are none such.
     pub fn few_noisy(&self) -> Option<FewNoisy> {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
         let unit = self.unit * self.unit;
         let mut of_pixels: Vec<([u32; 2], f64)> =
             self.pixels().map(|(x, y)| ([x, y], self.variance(x, y) / unit)).collect();
-        let all: f64 = of_pixels.iter().map(|(_, variance)| variance).sum();
-        let most = (of_pixels.len() / ONE_IN).max(1);
-        if of_pixels.len() <= most {
+        let most = (of_pixels.len() / ONE_IN).max(FEWEST).min(of_pixels.len() / 10);
+        if most == 0 {
             return None;
         }
-        let (few, ..) = of_pixels.select_nth_unstable_by(most, |a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        of_pixels.select_nth_unstable_by(most, |a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let (few, others) = of_pixels.split_at_mut(most);
         few.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-        let mut left = all;
-        let pixels = 1 + few.iter().position(|(_, variance)| {
-            left -= variance;
-            left <= LEFT * all
-        })?;
-        let (few, others) = of_pixels.split_at(pixels);
-        // Sums of their own: of the differences nothing may be left but rounding.
-        let variance: f64 = others.iter().map(|(_, variance)| variance).sum();
-        let light: f64 = others.iter().map(|&([x, y], _)| luminance(self.radiance(x, y)) / self.unit).sum();
-        let count = others.len() as f64;
-        let rest = if light > 0.0 { (variance / count).sqrt() / (light / count) } else { 0.0 };
-        (all > 0.0).then_some(FewNoisy { pixels, worst: few[0].0, rest })
+        let light = |&([x, y], _): &([u32; 2], f64)| luminance(self.radiance(x, y)) / self.unit;
+        // Sums of their own: of differences nothing may be left but rounding.
+        let mut sums = [others.iter().map(|(_, variance)| variance).sum(), others.iter().map(light).sum::<f64>()];
+        let mut count = others.len() as f64;
+        let noise =
+            |[variance, light]: [f64; 2], count: f64| if light > 0.0 { (variance * count).sqrt() / light } else { 0.0 };
+        // Without the first k of them, for each k.
+        let mut rests = vec![noise(sums, count)];
+        for pixel in few.iter().rev() {
+            sums = [sums[0] + pixel.1, sums[1] + light(pixel)];
+            count += 1.0;
+            rests.push(noise(sums, count));
+        }
+        rests.reverse();
+        let least = rests[most];
+        let pixels = rests.iter().position(|&rest| rest <= MORE * least)?;
+        (rests[0] >= FALLS * least && pixels > 0).then(|| FewNoisy { pixels, worst: few[0].0, rest: rests[pixels] })
     }
 
     /// The rate at which the square of the noise falls with the number of samples: 1 for independent ones, and where
