@@ -1,8 +1,8 @@
 //! What the editor asks, and the answers: one function a request.
 
-use crate::diagnostics;
 use crate::documents::{Document, Documents, uri_of};
 use crate::kin;
+use crate::{across, diagnostics};
 use lsp_types::request::{
     CodeActionRequest, ColorPresentationRequest, Completion, DocumentColor, DocumentHighlightRequest,
     DocumentSymbolRequest, Formatting, GotoDefinition, HoverRequest, PrepareRenameRequest, References, Rename, Request,
@@ -191,7 +191,13 @@ fn is_kind(path: &Path, kind: FileKind) -> bool {
 
 fn hover(documents: &Documents, params: HoverParams) -> Option<Hover> {
     let (document, byte) = at(documents, &params.text_document_position_params)?;
-    let found = analysis::hover(&document.text, document.syntax, byte)?;
+    // What an included file gives is told as it is told there.
+    let included = across::definition(documents, document, byte).and_then(|(other, place)| {
+        let found = analysis::hover(&other.text, other.syntax, place.start)?;
+        let range = analysis::name_at(&document.text, document.syntax, byte)?;
+        Some(analysis::Hover { range, ..found })
+    });
+    let found = included.or_else(|| analysis::hover(&document.text, document.syntax, byte))?;
     let range = Some(document.lines.range(&document.text, found.range));
     Some(Hover { contents: HoverContents::Markup(markdown(found.markdown)), range })
 }
@@ -201,6 +207,9 @@ fn definition(documents: &Documents, params: GotoDefinitionParams) -> Option<Got
     if let Some(found) = analysis::definition(&document.text, document.syntax, byte) {
         let range = document.lines.range(&document.text, found);
         return Some(GotoDefinitionResponse::Scalar(Location { uri: document.uri.clone(), range }));
+    }
+    if let Some((other, place)) = across::definition(documents, document, byte) {
+        return Some(GotoDefinitionResponse::Scalar(across::location(documents, &other, place)));
     }
     let (_, name) = analysis::file_at(&document.text, document.syntax, byte)?;
     // The beginning of a file that is there.
@@ -235,7 +244,13 @@ fn rename(documents: &Documents, params: RenameParams) -> Result<WorkspaceEdit, 
         return Err("this is no scene, or it is not open".to_owned());
     };
     let edits = analysis::rename(&document.text, document.syntax, byte, &params.new_name)?;
-    Ok(in_document(document, edits.iter().map(|edit| diagnostics::edit(document, edit)).collect()))
+    let mut changed = in_document(document, edits.iter().map(|edit| diagnostics::edit(document, edit)).collect());
+    // Those that include it use the name, too.
+    if let Some(given) = analysis::given_at(&document.text, document.syntax, byte) {
+        let elsewhere = across::renamed(documents, document, &given, &params.new_name);
+        changed.changes.get_or_insert_default().extend(elsewhere);
+    }
+    Ok(changed)
 }
 
 // The protocol's own type; an address is compared by its text.

@@ -4,7 +4,7 @@ use crate::documents::Document;
 use lsp_types::{DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, Range, TextEdit};
 use scene_format::diagnostic::{Edit, Source, Span};
 use scene_format::render::apply_edits;
-use scene_format::{Diagnostic, Diagnostics, LoadError, Loaded, Override, SceneDesc, Severity};
+use scene_format::{Diagnostic, Diagnostics, LoadError, Loaded, Override, SceneDesc, Severity, codes, is_library};
 use tracer_core::Looking;
 
 /// Frames that are looked at, at most: somebody is writing.
@@ -32,7 +32,13 @@ pub fn found(document: &Document) -> Diagnostics {
 fn found_in(document: &Document, text: &str) -> Diagnostics {
     match load(document, text, &[]) {
         Ok(loaded) => loaded.warnings,
-        Err(LoadError::Invalid { diagnostics, .. }) => diagnostics,
+        Err(LoadError::Invalid { mut diagnostics, .. }) => {
+            // A file that is there to be included has nothing to render.
+            if is_library(text, document.syntax) {
+                diagnostics.retain(|fault| fault.code != codes::NO_OBJECTS);
+            }
+            diagnostics
+        }
         Err(LoadError::Io { .. }) => Diagnostics::new(),
     }
 }

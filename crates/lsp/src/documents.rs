@@ -90,6 +90,11 @@ impl Documents {
         self.open.get_mut(uri.as_str())
     }
 
+    /// All that are open.
+    pub fn all(&self) -> impl Iterator<Item = &Document> {
+        self.open.values()
+    }
+
     /// A scene that is open.
     pub fn scene(&self, uri: &Uri) -> Option<&Document> {
         self.get(uri).filter(|document| document.is_scene)

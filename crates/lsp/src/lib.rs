@@ -6,6 +6,7 @@
 //! newest one.
 #![forbid(unsafe_code)]
 
+mod across;
 mod answers;
 mod diagnostics;
 mod documents;

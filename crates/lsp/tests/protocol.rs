@@ -257,6 +257,42 @@ fn files_are_gone_to_and_names_are_shown() {
     editor.close();
 }
 
+/// What an included file gives is gone to and shown from the scene, and renamed in both; the file has nothing to render,
+/// which is no fault of it.
+#[test]
+fn names_of_included_files_are_known() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let library = "Scene(vars: { \"h\": 2 },\nmaterials: { \"red\": Mirror() })";
+    std::fs::write(folder.path().join("lib.ron"), library).expect("a file");
+    let scene = "Scene(background: 1, include: [\"lib.ron\"], objects: [\nBox(size: \"=h\", material: \"red\"),\n])";
+    std::fs::write(folder.path().join("a.ron"), scene).expect("a file");
+    let uri = |name: &str| format!("file://{}/{name}", folder.path().display());
+    let column = |text: &str, line: usize, word: &str| {
+        text.lines().nth(line).and_then(|line| line.find(word)).expect("a word") as u32 + 1
+    };
+    let mut editor = Editor::open(&uri("a.ron"), scene);
+    for (word, line, start) in [("red", 1, 14), ("h\"", 0, 15)] {
+        let found = editor.at("textDocument/definition", 1, column(scene, 1, word));
+        assert!(found["uri"].as_str().expect("an address").ends_with("/lib.ron"), "{found}");
+        assert_eq!(found["range"]["start"], json!({ "line": line, "character": start }));
+    }
+    let shown = editor.at("textDocument/hover", 1, column(scene, 1, "red"));
+    assert_eq!(shown["contents"]["value"], "**red**: `Mirror()`");
+    editor.close();
+    // The scene is not open.
+    let mut editor = Editor::open(&uri("lib.ron"), library);
+    assert!(editor.diagnostics().is_empty());
+    let place = json!({ "line": 1, "character": column(library, 1, "red") });
+    let asked = json!({ "textDocument": { "uri": uri("lib.ron") }, "position": place, "newName": "blue" });
+    let renamed = editor.ask("textDocument/rename", asked);
+    let changes = renamed["changes"].as_object().expect("changes");
+    assert_eq!(changes.len(), 2, "{renamed}");
+    let of_scene = changes.iter().find(|(uri, _)| uri.ends_with("/a.ron")).expect("the scene's").1;
+    assert_eq!(of_scene[0]["newText"], "blue");
+    assert_eq!(of_scene[0]["range"]["start"], json!({ "line": 1, "character": column(scene, 1, "red") - 1 }));
+    editor.close();
+}
+
 /// A value shows what its field takes.
 #[test]
 fn values_show_what_they_may_be() {

@@ -177,6 +177,17 @@ fn words_of_languages_do_not_bring_others() {
 }
 
 #[test]
+fn points_and_faces_in_one_row_are_one_fault_each() {
+    let scene =
+        |points: &str, faces: &str| format!("Scene(background: 1, objects: [Mesh(points: {points}, faces: {faces})])");
+    let right = scene("[(0, 0, 0), (1, 0, 0), (0, 1, 0)]", "[[0, 1, 2]]");
+    mends(&[(Ron, &scene("[0,0,0, 1,0,0, 0,1,0]", "[0, 1, 2]"), &right)]);
+    told(Ron, &scene("[0, 0, 0, 1]", "[[0, 1, 2]]"), "3 numbers each in brackets of their own");
+    let lathe = |profile: &str| format!("Scene(background: 1, objects: [Lathe(profile: {profile})])");
+    mends(&[(Ron, &lathe("[0, 0, 1, 1]"), &lathe("[(0, 0), (1, 1)]"))]);
+}
+
+#[test]
 fn materials_by_their_names_and_by_a_color_alone() {
     let scene = |material: &str| format!("Scene(background: 1, objects: [Box(size: 1, material: {material})])");
     for (name, way) in [

@@ -178,8 +178,9 @@ pub fn nearby(path: &Path, is_kind: impl Fn(&Path) -> bool) -> Option<String> {
         .collect();
     scenes.sort();
     let stem = Path::new(name).file_stem();
-    let same = scenes.iter().find(|scene| Path::new(scene).file_stem() == stem);
-    let near = same.map(String::as_str).or_else(|| scene_format::nearest(name, scenes.iter().map(String::as_str)))?;
+    let of_stem = || scenes.iter().map(String::as_str).filter(|scene| Path::new(scene).file_stem() == stem);
+    let same = scene_format::nearest(name, of_stem()).or_else(|| of_stem().next());
+    let near = same.or_else(|| scene_format::nearest(name, scenes.iter().map(String::as_str)))?;
     Some(path.with_file_name(near).display().to_string())
 }
 

@@ -24,6 +24,8 @@ pub fn colors(text: &str, syntax: Syntax) -> Vec<ColorPlace> {
         let is_color = match visit.kind {
             Type::Color => true,
             Type::OneOf(kinds) => kinds.iter().any(|kind| matches!(kind, Type::Color)),
+            // A var may be anything: three numbers may be a point.
+            Type::Value => visit.item.kind() == Kind::Text,
             _ => false,
         };
         if let Some(linear) = is_color.then(|| color(visit.item)).flatten()

@@ -338,6 +338,11 @@ fn with_fields(name: &str, def: &StructDef, syntax: Syntax) -> String {
     }
 }
 
+/// Whether the cursor stands in what is repeated.
+pub(super) fn in_repeat(way: &Way) -> bool {
+    way.steps.iter().any(|step| matches!(step, Step::Kind(kind) | Step::Key(kind) if kind == REPEAT.name))
+}
+
 /// Within a text that begins with `=`: values and functions.
 fn in_expression(text: &str, syntax: Syntax, byte: usize, begun: &str, way: &Way) -> Completions {
     let letters = begun.bytes().rev().take_while(|byte| *byte == b'_' || byte.is_ascii_alphanumeric()).count();
@@ -354,9 +359,7 @@ fn in_expression(text: &str, syntax: Syntax, byte: usize, begun: &str, way: &Way
     let mut items: Vec<Completion> = vars.iter().map(|var| name(var, "a value of this scene")).collect();
     let told = [("frame", "the number of the frame"), ("time", "seconds from the first frame"), ("pi", "a number")];
     items.extend(told.map(|(word, detail)| name(word, detail)));
-    let repeated =
-        way.steps.iter().any(|step| matches!(step, Step::Kind(kind) | Step::Key(kind) if kind == REPEAT.name));
-    if repeated && !items.iter().any(|item| item.label == "i") {
+    if in_repeat(way) && !items.iter().any(|item| item.label == "i") {
         items.push(name("i", "the number of the copy, from 0, where Repeat has no `index`"));
     }
     items.extend(functions().map(|(name, call)| Completion {

@@ -1,9 +1,11 @@
 //! What a word means, where it stands.
 
+use super::complete::in_repeat;
 use super::names;
+use super::place::way;
 use super::visit::{tree, visit};
 use crate::expression;
-use crate::read::expected;
+use crate::read::{PICK, REPEAT, expected};
 use crate::schema::{Content, FieldDef, StructDef, prose};
 use crate::syntax::Syntax;
 use crate::tree::{Item, Kind, Tree};
@@ -49,7 +51,21 @@ pub fn hover(text: &str, syntax: Syntax, byte: usize) -> Option<Hover> {
             found = Some(Hover { range: range(span), markdown });
         }
     });
-    found.or_else(|| of_name(&tree, text, syntax, byte)).or(valued)
+    found.or_else(|| of_body(text, byte)).or_else(|| of_name(&tree, text, syntax, byte)).or(valued)
+}
+
+/// `Repeat` and `Pick`, which stand in place of any item or value.
+fn of_body(text: &str, byte: usize) -> Option<Hover> {
+    let is_letter = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+    let bytes = text.as_bytes();
+    let start = byte - bytes.get(..byte)?.iter().rev().take_while(|byte| is_letter(byte)).count();
+    let end = byte + bytes[byte..].iter().take_while(|byte| is_letter(byte)).count();
+    let def = [&REPEAT, &PICK].into_iter().find(|def| text.get(start..end) == Some(def.name))?;
+    // In a comment or a text it is a word like others.
+    let follows = text[end..].trim_start_matches([' ', '"']).starts_with(['(', ':', '=', ']', '.']);
+    let mut markdown = format!("**{}**\n\n{}", def.name, prose(def.doc));
+    fields(&mut markdown, def);
+    follows.then_some(Hover { range: start..end, markdown })
 }
 
 /// The value without brackets that stands at a byte: a number of a vector, too, but not what has a name of its own.
@@ -73,7 +89,13 @@ fn of_name(tree: &Tree<'_>, text: &str, syntax: Syntax, byte: usize) -> Option<H
     let name = &text[word.clone()];
     let markdown = match expression::function(name) {
         Some((call, does)) => format!("**{call}**\n\n{does}"),
-        None => format!("**{name}**: {}", expression::constant(name)?),
+        None => match expression::constant(name) {
+            Some(means) => format!("**{name}**: {means}"),
+            None if name == "i" && in_repeat(&way(text, syntax, byte)) => {
+                "**i**: counts from 0: the index of a `Repeat`".to_owned()
+            }
+            None => return None,
+        },
     };
     Some(Hover { range: word, markdown })
 }

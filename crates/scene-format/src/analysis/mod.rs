@@ -5,6 +5,7 @@
 //! wrong or half written: what stands before the cursor is read by `place`, whole texts by the reader's own tree, as
 //! far as it goes.
 
+mod across;
 mod added;
 mod colors;
 mod complete;
@@ -17,6 +18,7 @@ mod place_toml;
 mod symbols;
 mod visit;
 
+pub use across::{Given, given_at, includes, place_of, rename_used, used_at};
 pub use added::material_to_add;
 pub use colors::{ColorPlace, color_texts, colors};
 pub use complete::{Completion, CompletionKind, Completions, complete};

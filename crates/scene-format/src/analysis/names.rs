@@ -15,7 +15,7 @@ use std::ops::Range;
 
 /// What a name is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Of {
+pub(super) enum Of {
     Material,
     Texture,
     Camera,
@@ -26,16 +26,16 @@ enum Of {
 
 /// A place where a name stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Place<'s> {
-    of: Of,
-    name: Cow<'s, str>,
+pub(super) struct Place<'s> {
+    pub of: Of,
+    pub name: Cow<'s, str>,
     /// The name without quotes.
-    range: Range<usize>,
+    pub range: Range<usize>,
     /// The quote that stands around it; of an expression the one around that.
     quote: Option<char>,
-    defines: bool,
+    pub defines: bool,
     /// Where a name that is given here is known; `None`: everywhere.
-    scope: Option<Range<usize>>,
+    pub scope: Option<Range<usize>>,
 }
 
 /// The name that stands at a byte: its letters.
@@ -58,7 +58,7 @@ pub fn name_meant(text: &str, syntax: Syntax, byte: usize) -> Option<String> {
 }
 
 /// The place that gives the name at another one: names within hide those around.
-fn defined_of<'p, 's>(places: &'p [Place<'s>], at: &Place<'_>) -> Option<&'p Place<'s>> {
+pub(super) fn defined_of<'p, 's>(places: &'p [Place<'s>], at: &Place<'_>) -> Option<&'p Place<'s>> {
     let known = |place: &Place<'_>| {
         place.scope.as_ref().is_none_or(|scope| scope.start <= at.range.start && at.range.end <= scope.end)
     };
@@ -111,13 +111,15 @@ pub fn rename(text: &str, syntax: Syntax, byte: usize, name: &str) -> Result<Vec
     if places.iter().any(|place| place.of == of && place.name == name && place.name != first.name) {
         return Err(format!("there is another {name:?} already"));
     }
+    Ok(of_one_name(&places, byte).map(|place| edit_of(place, name)).collect())
+}
+
+/// Another name in place of this one.
+pub(super) fn edit_of(place: &Place<'_>, name: &str) -> Edit {
     let is_bare = name.bytes().all(|byte| matches!(byte, b'_' | b'-') || byte.is_ascii_alphanumeric());
-    let edit = |place: &Place<'_>| {
-        let written = if place.quote.is_some() || is_bare { name.to_owned() } else { format!("\"{name}\"") };
-        let span = Span { source: 0, start: place.range.start as u32, end: place.range.end as u32 };
-        Edit { span, replacement: written }
-    };
-    Ok(of_one_name(&places, byte).map(edit).collect())
+    let replacement = if place.quote.is_some() || is_bare { name.to_owned() } else { format!("\"{name}\"") };
+    let span = Span { source: 0, start: place.range.start as u32, end: place.range.end as u32 };
+    Edit { span, replacement }
 }
 
 /// A name, where it is given or used.
@@ -214,7 +216,7 @@ pub(super) fn defined(text: &str, syntax: Syntax) -> Defined {
     defined
 }
 
-fn holds_byte(range: &Range<usize>, byte: usize) -> bool {
+pub(super) fn holds_byte(range: &Range<usize>, byte: usize) -> bool {
     (range.start..=range.end).contains(&byte)
 }
 
@@ -229,7 +231,7 @@ fn of_one_name<'p, 's>(places: &'p [Place<'s>], byte: usize) -> impl Iterator<It
 }
 
 /// All places of names, in order.
-fn places<'s>(tree: &Tree<'s>, text: &'s str, syntax: Syntax) -> Vec<Place<'s>> {
+pub(super) fn places<'s>(tree: &Tree<'s>, text: &'s str, syntax: Syntax) -> Vec<Place<'s>> {
     let mut found = Vec::new();
     visit(tree, &mut |visit| {
         let scope = visit.scope.map(range);

@@ -378,6 +378,7 @@ fn words_of_expressions_are_explained() {
         ("(\"=|k", "**k**: counts from 0"),
         ("=s|in(", "**sin(degrees)**\n\nthe sine of an angle in degrees"),
         ("sin(fr|ame", "**frame**: the number of the frame"),
+        ("Rep|eat(", "**Repeat**\n\nPuts its items into the list"),
     ] {
         let at = text.find(&word.replace('|', "")).expect("it is there") + word.find('|').expect("a cursor");
         let found = hover(text, Ron, at).unwrap_or_else(|| panic!("nothing at {word}"));

@@ -485,6 +485,9 @@ impl<'r> Reader<'r> {
         if item.kind() != Kind::List {
             return self.not_a_list(item, at);
         }
+        if self.flat_list(item, at) {
+            return None;
+        }
         let mut children = item.children();
         let (mut piece, mut begin) = (0, 0);
         for index in 0.. {

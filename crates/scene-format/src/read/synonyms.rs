@@ -101,6 +101,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
             "model",
         ],
     ),
+    ("index", &["var", "variable", "counter", "as"]),
     ("degrees", &["angle", "deg"]),
     ("exponent", &["shininess", "alpha", "glossiness", "ns", "phong_size", "hardness", "specular_exponent"]),
     ("specular", &["ks", "phong", "specularity", "specular_color"]),

@@ -173,7 +173,10 @@ impl Reader<'_> {
                 let mut fault =
                     Diagnostic::error(codes::DUPLICATE_NAME, key.span(), format!("two vars have the name \"{name}\""))
                         .hint("rename one of the two, or remove it");
-                if first != Span::NONE {
+                if first == Span::NONE {
+                    fault.message = format!("`{name}` counts the copies already");
+                    fault.hint = "leave it out, or give it another name".to_owned();
+                } else {
                     fault = fault.label(first, "the first one is here");
                 }
                 self.report(fault);

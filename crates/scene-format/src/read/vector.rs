@@ -37,6 +37,42 @@ fn texture_as_amount(item: Item<'_, '_>, at: &'static FieldDef) -> Diagnostic {
 }
 
 impl Reader<'_> {
+    /// Numbers one after the other where points or faces stand, `[0, 0, 0, 1, 0, 0]`: reports them once, and says that
+    /// it did.
+    pub(super) fn flat_list(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
+        // Of longer ones the hint is enough.
+        const MOST: usize = 300;
+        let (count, what) = match at.kind {
+            Type::List(Type::Vector) => (3, "points"),
+            Type::List(Type::Pair) => (2, "points"),
+            Type::List(Type::List(Type::Integer)) => (3, "faces"),
+            _ => return false,
+        };
+        if item.children().next().is_none_or(|first| first.number().is_none()) {
+            return false;
+        }
+        let numbers: Option<Vec<&str>> =
+            item.children().take(MOST + 1).map(|child| child.number().map(|_| child.lexeme())).collect();
+        let all = numbers.filter(|numbers| numbers.len() <= MOST && numbers.len() % count == 0);
+        let round = item.syntax() == Syntax::Ron && what == "points";
+        let group = |numbers: &[&str]| match round {
+            true => format!("({})", numbers.join(", ")),
+            false => format!("[{}]", numbers.join(", ")),
+        };
+        let mended =
+            all.map(|numbers| format!("[{}]", numbers.chunks(count).map(group).collect::<Vec<_>>().join(", ")));
+        let names = ["a", "b", "c"];
+        let message = format!("{} are {what}, {count} numbers each in brackets of their own", plain(at.noun));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+            .expected(format!("[{}, ..]", group(&names[..count])));
+        if let Some(mended) = mended {
+            fault = fault.hint(format!("write {}", super::hinted(&mended)));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        }
+        self.report(fault);
+        true
+    }
+
     /// Three numbers in brackets of either kind, each in the field's range.
     fn three(&mut self, item: Item<'_, '_>, at: &'static FieldDef, names: [&str; 3]) -> Option<Vec3> {
         if let Some(value) = item.three_numbers()

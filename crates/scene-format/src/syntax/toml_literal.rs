@@ -4,6 +4,7 @@ use super::ron_literal::{number_kind, plain_number};
 use super::toml::Parser;
 use super::{Syntax, arithmetic, constructs, decode, from_ron};
 use crate::codes;
+use crate::css_colors::named_color;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::expression;
 use crate::tree::Kind;
@@ -140,7 +141,14 @@ impl Parser<'_> {
                 Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("`{lexeme}` is not a value in TOML"))
                     .expected("a number, a \"text\", true, false, a [list] or a { table = .. }")
                     .hint(format!("write {mended}"));
-            if expression::is_name(lexeme) && lexeme.starts_with(|c: char| c.is_ascii_lowercase()) {
+            let mut mended = mended;
+            if let Some(hex) = named_color(lexeme) {
+                fault.hint = format!("a colour is \"{hex}\"; the name of a material is {mended}");
+            } else if ["Diffuse", "Mirror", "Emissive"].contains(&lexeme) {
+                let field = if lexeme == "Emissive" { " radiance = 5 " } else { "" };
+                mended = format!("{{ {lexeme} = {{{field}}} }}");
+                fault.hint = format!("write {mended}");
+            } else if expression::is_name(lexeme) && lexeme.starts_with(|c: char| c.is_ascii_lowercase()) {
                 fault.hint += &format!(", or \"={lexeme}\" for one of `vars`");
             }
             if !lexeme.contains(['"', '\\', '(', ')']) {

@@ -242,7 +242,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     // The world's own coordinates are the first.
     let solid = patterns.iter().any(|pattern| pattern.space != Space::Uv) || programs.iter().any(Program::is_solid);
     let mut written = solid.then(|| vec![DAffine3::IDENTITY]);
-    let (spheres, mut shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, &curved, written.as_mut());
+    let (spheres, mut shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, curved, written.as_mut());
     let mut solids = Solids::default();
     // What has no end stays behind them.
     let mut endless = shapes.split_off(shapes.partition_point(|shape| !shape.unit.is_endless()));
@@ -265,7 +265,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     diagnostics.extend(built.unlit.iter().map(|&span| unmeant::unlit(span)));
     let color_table = vertex_colors::table(&programs, &loaded, &built);
     // The tree is what takes the most: what was made of the description is there no more.
-    drop((loaded, placed, assigned, mesh_radiances, curved, solid_objects));
+    drop((loaded, placed, assigned, mesh_radiances, solid_objects));
     let material_table = MaterialTable::new(&materials, uses.len() as u32, (uses.len() + patterns.len()) as u32);
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
     let plane_table = PlaneTable::new(&shapes, spheres.len() as u32);
@@ -402,7 +402,7 @@ fn curved_and_lights(
     desc: &SceneDesc,
     frame: &Frame,
     radiance_unit: f64,
-    curved: &[Curved],
+    curved: Vec<Curved>,
     mut written: Option<&mut Vec<DAffine3>>,
 ) -> (Vec<Sphere>, Vec<Shape>, Vec<Light>) {
     let mut lights: Vec<Light> = Vec::new();
@@ -412,9 +412,11 @@ fn curved_and_lights(
     };
     let mut spheres = Vec::with_capacity(curved.len() + desc.lights.len());
     let (mut shapes, mut lamps): (Vec<Shape>, Vec<CurvedLight>) = (Vec::new(), Vec::new());
-    for object in curved {
+    for object in &curved {
         object.build(frame, &mut shine, &mut spheres, (&mut shapes, &mut lamps), written.as_deref_mut());
     }
+    // To put millions in order takes as much again.
+    drop(curved);
     for (object, light) in (desc.objects.len() as u32..).zip(&desc.lights) {
         let desc::Light::SphereLight(light) = &light.value;
         let index = shine(radiances::of_light(light), true);

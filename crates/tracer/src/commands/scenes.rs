@@ -15,7 +15,10 @@ pub fn named(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
         if path.is_dir() {
             let before = scenes.len();
             find(path, &mut scenes);
-            if scenes.len() == before {
+            if scenes.len() == before && paths.len() > 1 {
+                // Told in its turn, beside what the others are.
+                scenes.push(path.clone());
+            } else if scenes.len() == before {
                 return Err(Failure::wrong(format!("there is no scene in the folder {}", path.display())));
             }
         } else {

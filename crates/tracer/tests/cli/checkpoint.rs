@@ -379,3 +379,20 @@ fn a_picture_without_a_folder_is_put_elsewhere() {
     let found = fs::read_dir(sandbox.path("temporary")).expect("my folder").count();
     assert_eq!(found, 1);
 }
+
+/// A checkpoint that was ended within a pass is enough to make its picture.
+#[cfg(unix)]
+#[test]
+fn what_was_ended_within_a_pass_makes_its_picture() {
+    let sandbox = Sandbox::new();
+    let line =
+        ["render", "scene.ron", "-o", "a.pfm", "--samples", "100000000", "--checkpoint", "a.film", "--every", "1h"];
+    let mut child = spawn(&mut sandbox.command(&line));
+    std::thread::sleep(Duration::from_millis(1500));
+    let kill = format!("kill -INT {}", child.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().expect("a shell").success());
+    assert_eq!(child.wait().expect("it ends").code(), Some(130));
+    let said = sandbox.run(&["merge", "a.film", "-o", "b.pfm"]).ends(0).err;
+    assert!(said.contains("--resume a.film goes on") || said.contains("b.pfm of 1 part"), "{said}");
+    assert_eq!(sandbox.read("a.pfm"), sandbox.read("b.pfm"));
+}

@@ -85,7 +85,10 @@ fn as_text(path: &Path, told: &Told, record: Option<Result<Record, String>>) -> 
             let samples = if fewest == most { most.to_string() } else { format!("{fewest} to {most}") };
             line("render", format!("{samples} samples, seed {}", record.seed));
             let picture = path.file_name().unwrap_or_default().to_string_lossy();
-            line("again by", record.command(&picture, from_picture::layers(told)));
+            match fewest == most || record.plan.is_some() {
+                true => line("again by", record.command(&picture, from_picture::layers(told))),
+                false => line("again", "not by a command: it was interrupted within a pass".to_owned()),
+            }
             let files = record.files.iter().flatten();
             for (k, file) in files.enumerate() {
                 line(if k == 0 { "files" } else { "" }, format!("{}  SHA-256 {}", file.name, file.sha256));

@@ -42,8 +42,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
         denoising::check(heads[0].has_halves(), heads[0].layers())?;
     }
     check_memory(&heads[0], args.denoise.how())?;
-    let open = |part: usize| File::open(&parts[part].0).map_err(FilmError::Io).and_then(SavedFilm::open);
-    let film = Film::merge(&heads, open, allowed).map_err(|error| failure(&error, &parts))?;
+    let film = film_of(&parts, &heads, allowed, shell)?;
     let merged = started.elapsed().as_secs_f64();
 
     // Of the first in the rendering's own order: so the order of the command line does not show.
@@ -89,6 +88,25 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
         write_report(path, report.to_json())?;
     }
     Ok(ExitCode::from(if failed || is_noisy { exit::FAILED } else { exit::DONE }))
+}
+
+/// The film of the parts; of a checkpoint alone, however far it is, what it holds.
+fn film_of(parts: &[Head], heads: &[FilmHead], allowed: Gaps, shell: &Shell) -> Result<Film, Failure> {
+    let open = |part: usize| File::open(&parts[part].0).map_err(FilmError::Io).and_then(SavedFilm::open);
+    if !is_begun(parts) {
+        return Film::merge(heads, open, allowed).map_err(|error| failure(&error, parts));
+    }
+    let path = parts[0].0.display();
+    let film = open(0).and_then(SavedFilm::film);
+    let film = film.map_err(|error| Failure::wrong(format!("{path} cannot be used: {error}")))?;
+    let (fewest, most) = film.samples().into_inner();
+    shell.say(&format!("{path} holds {fewest} to {most} samples per pixel; --resume {path} goes on"));
+    Ok(film)
+}
+
+/// Whether it is the checkpoint of a whole rendering that was ended within a pass.
+fn is_begun(parts: &[Head]) -> bool {
+    matches!(parts, [(_, head)] if !head.is_part() && !head.is_finished() && *head.samples.end() > 0)
 }
 
 /// The pictures that are files.
@@ -211,6 +229,9 @@ struct Sorted {
 /// Sees that the parts belong together; all that is wrong is told at once.
 fn sorted(found: Found, args: &MergeArgs, allowed: Gaps, shell: &Shell) -> Result<Sorted, Failure> {
     let Found { mut parts, mut lost, is_misnamed } = found;
+    if is_begun(&parts) && lost.is_empty() {
+        return Ok(Sorted { parts, gaps: Vec::new() });
+    }
     parts.sort_by_key(|(path, head)| (head.part().first, head.part().crop.y, path.clone()));
     let mut wrong = foreign(&parts);
     let mut gaps = Vec::new();

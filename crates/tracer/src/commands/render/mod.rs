@@ -171,8 +171,15 @@ fn one(
         goals::end(&mut desc, &film, interrupted, shell);
     }
     let args = &RenderArgs { plan: film.plan().filter(|_| !interrupted), ..args.clone() };
-    if most == 0 {
-        shell.say("interrupted before the first sample: no picture is written");
+    // Of a picture that is there already there is more than of one that has hardly begun.
+    if most == 0 || interrupted && fewest == 0 && outputs::are_there(&outputs) {
+        if let Some(Err(error)) = checkpoints.take().filter(|_| most > 0).map(|checkpoints| checkpoints.end(&film)) {
+            shell.error(&error);
+        }
+        shell.say(match most {
+            0 => "interrupted before the first sample: no picture is written",
+            _ => "interrupted before all pixels had a sample: the picture that was there stays",
+        });
         return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
     }
     if interrupted && frames.is_some() {

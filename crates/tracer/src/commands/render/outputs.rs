@@ -27,6 +27,11 @@ pub(super) fn name(place: &Place) -> String {
     }
 }
 
+/// Whether one of the pictures to be written is there already.
+pub fn are_there(outputs: &[Output]) -> bool {
+    outputs.iter().any(|output| matches!(&output.place, Place::File(path) if path.is_file()))
+}
+
 /// The names of what was written, for the last line.
 pub fn names(files: &[FileReport]) -> String {
     let name = |file: &FileReport| if file.path == "-" { "standard output".to_owned() } else { file.path.clone() };
