@@ -257,8 +257,8 @@ fn files_are_gone_to_and_names_are_shown() {
     editor.close();
 }
 
-/// What an included file gives is gone to and shown from the scene, and renamed in both; the file has nothing to render,
-/// which is no fault of it.
+/// What an included file gives is gone to and shown from the scene, and renamed in both; the file has nothing to
+/// render, which is no fault of it.
 #[test]
 fn names_of_included_files_are_known() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -273,6 +273,10 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
             }
             tip
         }
+        ErrorKind::MissingRequiredArgument if words.iter().take(2).eq(["golden", "accept"]) => {
+            let line = "tracer golden accept golden room --reason \"another lamp\"";
+            Some(format!("name the scenes, as in {line}, or give --all-failed in place of names"))
+        }
         _ => None,
     };
     if let Some(tip) = tip {

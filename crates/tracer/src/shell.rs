@@ -113,7 +113,8 @@ impl Shell {
         shown.retain(|fault| !is_warning(fault) || !known.contains(&(fault.code, fault.span)));
         for fault in shown.iter_mut().filter(|fault| is_warning(fault)) {
             known.insert((fault.code, fault.span));
-            fault.message += &frame.map_or(String::new(), |frame| format!(" (frame {frame})"));
+            let frame = frame.map(|frame| format!("frame {frame}")).filter(|frame| !fault.message.contains(frame));
+            fault.message += &frame.map_or(String::new(), |frame| format!(" ({frame})"));
         }
     }
 

@@ -86,7 +86,9 @@ impl Reader<'_> {
         };
         self.path.push(Step::Field("frame"));
         let fault = Diagnostic::error(codes::OUT_OF_RANGE, animation.frame.span, message).expected(expected);
-        self.report(fault.hint("`frames` of the `animation` says how many there are"));
+        let more = frame.saturating_add(1);
+        let way = format!("`frames` says how many there are, as in `animation: Animation(frames: {more})`");
+        self.report(fault.hint(way));
         self.path.pop();
         false
     }

@@ -192,8 +192,8 @@ pub struct Parts<'a> {
     pub first_light: u32,
 }
 
-/// The objects of triangles, each with the mesh that it is.
-fn variants<'d>(desc: &'d SceneDesc, loaded: &Loaded) -> Vec<(Polygonal<'d>, Option<Variant>)> {
+/// The objects of triangles, each with the mesh that it is. There may be millions: they are gone through, not kept.
+fn variants<'d>(desc: &'d SceneDesc, loaded: &'d Loaded) -> impl Iterator<Item = (Polygonal<'d>, Option<Variant>)> {
     let variant = |object: &Polygonal<'_>, file: usize| Variant {
         file,
         smooth: match object.shading {
@@ -202,32 +202,28 @@ fn variants<'d>(desc: &'d SceneDesc, loaded: &Loaded) -> Vec<(Polygonal<'d>, Opt
             Shading::Auto => !loaded.files[file].normals.is_empty(),
         },
     };
-    polygonal(desc)
-        .zip(&loaded.file_of_object)
-        .map(|(object, file)| {
-            let variant = file.map(|file| variant(&object, file));
-            (object, variant)
-        })
-        .collect()
+    polygonal(desc).zip(&loaded.file_of_object).map(move |(object, file)| {
+        let variant = file.map(|file| variant(&object, file));
+        (object, variant)
+    })
 }
 
 /// Brings the meshes into render space. `written`, where a pattern asks for it: from the coordinates that things are
 /// written in to the world, the first the world's own.
 pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAffine3>>) -> Built {
     let Parts { desc, loaded, placed, assigned, .. } = *parts;
-    let objects = variants(desc, loaded);
     let mut copies: BTreeMap<Variant, usize> = BTreeMap::new();
-    for ((_, variant), maps) in objects.iter().zip(&placed.maps) {
+    for ((_, variant), maps) in variants(desc, loaded).zip(&placed.maps) {
         if let Some(variant) = variant {
-            *copies.entry(*variant).or_default() += maps.len();
+            *copies.entry(variant).or_default() += maps.len();
         }
     }
     let mut built = Built::default();
     // Meshes that are shared: where each is, and how it is put back into the frame of its file.
     let mut shared: BTreeMap<Variant, (u32, DAffine3)> = BTreeMap::new();
     let scaled = DAffine3::from_scale(DVec3::splat(frame.scale));
-    for (object, (polygonal, variant)) in objects.iter().enumerate() {
-        let Some(variant) = *variant else { continue };
+    for (object, (polygonal, variant)) in variants(desc, loaded).enumerate() {
+        let Some(variant) = variant else { continue };
         let data = &loaded.files[variant.file];
         let whole = assigned.of_object[object];
         let own_materials = &assigned.of_file[variant.file];
@@ -236,9 +232,9 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
             .iter()
             .map(|map| DAffine3 { matrix3: map.matrix3, translation: map.translation - frame.centre });
         if let Some(written) = written.as_mut() {
-            built.add_coordinates(polygonal, &placed.maps[object], written);
+            built.add_coordinates(&polygonal, &placed.maps[object], written);
         }
-        let flat = flattened(polygonal, copies[&variant], data.triangles.len());
+        let flat = flattened(&polygonal, copies[&variant], data.triangles.len());
         let shines_in_part = assigned.own_radiance(object, variant.file).next().is_some();
         // Copies that share their triangles are no lights: of a thousand meshes of which a lamp is a part, each would
         // have to have all its triangles.
