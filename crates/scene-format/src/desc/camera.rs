@@ -11,7 +11,8 @@ use crate::tree::Item;
 use crate::words::{Words, scene_enum, scene_struct, scene_words};
 
 scene_struct! {
-    /// A camera: a pinhole, unless `effects` give it a lens or `projection` makes it another.
+    /// A camera: a pinhole, unless `effects` give it a lens or `projection` makes it another. Pixels are square: of one
+    /// whose fx and fy differ, stretch the picture afterwards.
     pub(crate) struct CameraWords as "Camera", "the camera" {
         /// Eye point.
         position: Spanned<Vec3> = [0.0, 0.0, 5.0] => Rule::point();
