@@ -49,8 +49,8 @@ pub struct FewNoisy {
 const ONE_IN: usize = 1000;
 const FEWEST: usize = 16;
 
-/// Without them the noise is so many times smaller at least.
-const FALLS: f64 = 3.0;
+/// Without them the noise is so many times smaller at least: a caustic may be a third of it.
+const FALLS: f64 = 10.0;
 
 /// Those that are named leave so many times the least that any few would leave.
 const MORE: f64 = 1.5;
@@ -213,7 +213,7 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// The few pixels without which the noise is a third or less of what it is; `None` where there are none such.
+    /// The few pixels without which the noise is a tenth or less of what it is; `None` where there are none such.
     pub fn few_noisy(&self) -> Option<FewNoisy> {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
         let unit = self.unit * self.unit;
