@@ -44,8 +44,8 @@ pub struct FewNoisy {
     pub rest: f64,
 }
 
-/// The few are no more than one in so many pixels, or this many: a lamp that is smaller than a pixel is seen in those
-/// around it, too, where the filter reaches it.
+/// The few are no more than one in so many pixels, or this many (never more than a hundredth): a lamp that is smaller
+/// than a pixel is seen in those around it, too, where the filter reaches it.
 const ONE_IN: usize = 1000;
 const FEWEST: usize = 16;
 
@@ -219,7 +219,7 @@ impl Film {
         let unit = self.unit * self.unit;
         let mut of_pixels: Vec<([u32; 2], f64)> =
             self.pixels().map(|(x, y)| ([x, y], self.variance(x, y) / unit)).collect();
-        let most = (of_pixels.len() / ONE_IN).max(FEWEST).min(of_pixels.len() / 10);
+        let most = (of_pixels.len() / ONE_IN).max(FEWEST).min(of_pixels.len() / 100);
         if most == 0 {
             return None;
         }
