@@ -142,7 +142,7 @@ class Animation(TypedDict, total=False):
 
 
 class Camera(TypedDict, total=False):
-    """A camera: a pinhole, unless `effects` give it a lens or `projection` makes it another.
+    """A camera: a pinhole, unless `effects` give it a lens or `projection` makes it another. Pixels are square: of one whose fx and fy differ, stretch the picture afterwards.
 
     position: Eye point. Unit: the scene's unit.
     look_at: A point in the middle of the picture. Unit: the scene's unit.
