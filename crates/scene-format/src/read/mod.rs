@@ -270,7 +270,9 @@ impl<'r> Reader<'r> {
         item: Item<'t, 's>,
         def: &'static StructDef,
     ) -> Option<Fields<'t, 's>> {
-        if let Some(inner) = self.named_within(item, def) {
+        if item.kind() == Kind::Map
+            && let Some(inner) = self.named_within(item, def)
+        {
             return self.fields_unnamed(inner, def);
         }
         let mut fields = Fields::new(def, item);

@@ -90,7 +90,7 @@ impl Reader<'_> {
     /// The fields of a group whose name stands once more before them, `[camera.Camera]`, as kinds of objects do: tells
     /// that it does not belong there.
     pub(super) fn named_within<'t, 's>(&mut self, item: Item<'t, 's>, def: &'static StructDef) -> Option<Item<'t, 's>> {
-        if item.kind() != Kind::Map || item.syntax() == Syntax::Ron {
+        if item.syntax() == Syntax::Ron {
             return None;
         }
         let mut fields = item.fields();
