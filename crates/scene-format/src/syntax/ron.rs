@@ -122,6 +122,9 @@ impl<'p> Parser<'p> {
                 self.sink.push(brackets::stray(self.text, self.builder.source, start));
                 return;
             }
+            if let Some(sign) = self.rest().chars().next().filter(|c| c.is_control()) {
+                return self.sink.push(super::means_nothing(self.span(start, start + sign.len_utf8()), sign));
+            }
             let found = self.span(start, end);
             self.sink.push(
                 Diagnostic::error(codes::TEXT_AFTER_END, found, "the scene ended before this")

@@ -120,7 +120,10 @@ impl Parser<'_> {
         let fault = if lexeme.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
             let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{lexeme}` is not a number"))
                 .expected("a number such as 3, -0.25, 1.5e3 or 1_000");
-            if let Some(mended) = mended_number(lexeme) {
+            if let Some((at, sign)) = lexeme.char_indices().find(|(_, sign)| sign.is_control()) {
+                let at = start + at;
+                fault = super::means_nothing(self.range(at, at + sign.len_utf8()), sign);
+            } else if let Some(mended) = mended_number(lexeme) {
                 fault = fault.hint(format!("TOML writes it `{mended}`"));
                 fault.edit = Some(Edit { span: found, replacement: mended });
             } else {
