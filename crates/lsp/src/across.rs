@@ -76,9 +76,17 @@ pub fn location(documents: &Documents, other: &Other, range: std::ops::Range<usi
 
 /// What is to be changed in the scenes that include a document, where a name that it gives gets another: those that are
 /// open, and those beside it and in the folder above.
-pub fn renamed(documents: &Documents, document: &Document, given: &Given, name: &str) -> Vec<(Uri, Vec<TextEdit>)> {
-    let Some(own) = document.path.as_deref().and_then(|path| path.canonicalize().ok()) else { return Vec::new() };
-    let Some(file_name) = own.file_name().and_then(|name| name.to_str()) else { return Vec::new() };
+///
+/// # Errors
+/// One of them gives that name to something of its own.
+pub fn renamed(
+    documents: &Documents,
+    document: &Document,
+    given: &Given,
+    name: &str,
+) -> Result<Vec<(Uri, Vec<TextEdit>)>, String> {
+    let Some(own) = document.path.as_deref().and_then(|path| path.canonicalize().ok()) else { return Ok(Vec::new()) };
+    let Some(file_name) = own.file_name().and_then(|name| name.to_str()) else { return Ok(Vec::new()) };
     let folders = own.ancestors().skip(1).take(2);
     let listed = folders.filter_map(|folder| std::fs::read_dir(folder).ok()).flatten().take(10 * MOST_FILES);
     let beside = listed.filter_map(|entry| Some(entry.ok()?.path())).filter(|path| Syntax::from_path(path).is_some());
@@ -103,8 +111,11 @@ pub fn renamed(documents: &Documents, document: &Document, given: &Given, name: 
         });
         let edits: Vec<TextEdit> = edits.collect();
         if !edits.is_empty() {
+            if analysis::place_of(&other.text, other.syntax, &given.named(name)).is_some() {
+                return Err(format!("there is another {name:?} already in {}", other.path.display()));
+            }
             found.push((other.uri.clone(), edits));
         }
     }
-    found
+    Ok(found)
 }

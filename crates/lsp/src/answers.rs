@@ -247,7 +247,7 @@ fn rename(documents: &Documents, params: RenameParams) -> Result<WorkspaceEdit, 
     let mut changed = in_document(document, edits.iter().map(|edit| diagnostics::edit(document, edit)).collect());
     // Those that include it use the name, too.
     if let Some(given) = analysis::given_at(&document.text, document.syntax, byte) {
-        let elsewhere = across::renamed(documents, document, &given, &params.new_name);
+        let elsewhere = across::renamed(documents, document, &given, &params.new_name)?;
         changed.changes.get_or_insert_default().extend(elsewhere);
     }
     Ok(changed)

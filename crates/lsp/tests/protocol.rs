@@ -283,13 +283,19 @@ fn names_of_included_files_are_known() {
     let mut editor = Editor::open(&uri("lib.ron"), library);
     assert!(editor.diagnostics().is_empty());
     let place = json!({ "line": 1, "character": column(library, 1, "red") });
-    let asked = json!({ "textDocument": { "uri": uri("lib.ron") }, "position": place, "newName": "blue" });
+    let asked = json!({ "textDocument": { "uri": uri("lib.ron") }, "position": place.clone(), "newName": "blue" });
     let renamed = editor.ask("textDocument/rename", asked);
     let changes = renamed["changes"].as_object().expect("changes");
     assert_eq!(changes.len(), 2, "{renamed}");
     let of_scene = changes.iter().find(|(uri, _)| uri.ends_with("/a.ron")).expect("the scene's").1;
     assert_eq!(of_scene[0]["newText"], "blue");
     assert_eq!(of_scene[0]["range"]["start"], json!({ "line": 1, "character": column(scene, 1, "red") - 1 }));
+    // What the scene has itself is not to be taken for that.
+    let own = scene.replace("include", "materials: { \"blue\": Mirror() }, include");
+    std::fs::write(folder.path().join("a.ron"), own).expect("a file");
+    let asked = json!({ "textDocument": { "uri": uri("lib.ron") }, "position": place, "newName": "blue" });
+    let refused = editor.response("textDocument/rename", asked).error.expect("refused");
+    assert!(refused.message.contains("another \"blue\" already in"), "{}", refused.message);
     editor.close();
 }
 

@@ -90,6 +90,8 @@ fn units_are_left_out() {
         (Ron, &scene("45 degrees", "60W", "(1, 2, 3)"), &right),
     ]);
     told(Ron, &scene("0.5rad", "60", "1"), "angles are in degrees: write 28.6479");
+    let ball = "Scene(background: 1, objects: [Sphere(center: (0, 0, 0), radius: rad(0.6))])";
+    told(Ron, ball, "`rad` is no function of values: write the number");
     told(Ron, &scene("45", "60", "5cm"), "lengths are in the scene's own unit");
     told(Ron, &scene("45", "60lm", "1"), "numbers carry no unit");
     let toml =

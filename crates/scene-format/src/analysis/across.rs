@@ -19,6 +19,11 @@ impl Given {
         Given { of: place.of, name: place.name.to_string() }
     }
 
+    /// Another name of the same kind.
+    pub fn named(&self, name: &str) -> Given {
+        Given { of: self.of, name: name.to_owned() }
+    }
+
     fn is_of(&self, place: &Place<'_>) -> bool {
         place.of == self.of && place.name == self.name
     }

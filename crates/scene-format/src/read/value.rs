@@ -1,6 +1,6 @@
 //! Numbers, texts, paths and lists.
 
-use super::{Reader, elsewhere, plain};
+use super::{Reader, describe, elsewhere, plain};
 use crate::codes;
 use crate::desc::PatternWords;
 use crate::diagnostic::{Diagnostic, Edit, Spanned};
@@ -201,6 +201,14 @@ impl Reader<'_> {
             }
         } else if let Kind::Tuple | Kind::List = item.kind() {
             edit = elsewhere::number_elsewhere(item, at);
+            if let Some(name) = item.name().filter(|name| edit.is_none() && name.starts_with(char::is_lowercase)) {
+                let message = format!("{} cannot be {}", plain(at.noun), describe(item));
+                let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected_for(at, item));
+                self.report(fault.hint(format!(
+                    "`{name}` is no function of values: write the number; functions stand in expressions, \"=sqrt(2)\""
+                )));
+                return None;
+            }
         } else {
             edit = super::colors_elsewhere::in_other_brackets(item, at);
         }
