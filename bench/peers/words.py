@@ -165,7 +165,7 @@ def shapes(mi, folder, g):
     yield by_mesh("Cone, open", f"Cone({ends}, radius: {0.7 * g}, tip_radius: {0.3 * g}, caps: false, {m})",
                   of.cone(a, b, 0.7, 0.3, False))
     yield by_mesh("Capsule", f"Capsule({ends}, radius: {0.4 * g}, {m})", of.capsule(a, b, 0.4))
-    yield by_mesh("Torus", f"Torus(axis: {t3(TILT)}, radius: 0.7, tube_radius: {0.25 * g}, segments: 512, {m})",
+    yield by_mesh("Torus", f"Torus(axis: {t3(TILT)}, radius: 0.7, tube_radius: {0.25 * g}, {m})",
                   of.torus((0, 0, 0), TILT, 0.7, 0.25))
     yield by_mesh("Tube", f"Tube(points: {points(ZIGZAG)}, radius: {0.2 * g}, curve: Linear, segments: 512, {m})",
                   of.swept(ZIGZAG, 0.2))

@@ -1298,13 +1298,12 @@ class _TorusRequired(TypedDict):
 
 
 class Torus(_TorusRequired, total=False):
-    """A ring with a round section. It is closed, and made of triangles, shaded as round. Texture coordinates: u goes round its axis as a sphere's, v round its section, 1/2 on the outside, where it grows along the axis.
+    """A ring with a round section, closed. Texture coordinates: u goes round its axis as a sphere's, v round its section, 1/2 on the outside, where it grows along the axis.
 
     center: Its middle. Unit: the scene's unit.
     axis: Direction that it goes round.
     radius: From its middle to the middle of the section. Unit: the scene's unit.
     tube_radius: Radius of the section, at most `radius`. Unit: the scene's unit.
-    segments: How many flat pieces go round, and round the section.
     material: Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last. Turns and scales without `about` are about its middle.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
@@ -1314,7 +1313,6 @@ class Torus(_TorusRequired, total=False):
 
     center: Either[Sequence[Either[float, str]], Array, str, PickItem]
     axis: Either[Sequence[Either[float, str]], Array, str, PickItem]
-    segments: Either[int, str, PickItem]
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]
@@ -1451,7 +1449,7 @@ class _UnionRequired(TypedDict):
 class Union(_UnionRequired, total=False):
     """Closed shapes put together to one body: there are no walls inside it, also where they touch. Every surface has the material of the shape that it is of, and its texture coordinates. It cannot shine.
 
-    objects: The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Union`, `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each other counted. Where surfaces coincide that of the first shows. Solids that have an end may have a `Plane`, too, which is all of space behind it, as seen from where its normal points.
+    objects: The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Torus`, `Union`, `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each other counted. Where surfaces coincide that of the first shows. Solids that have an end may have a `Plane`, too, which is all of space behind it, as seen from where its normal points.
     material: The material of those shapes in it that have none of their own.
     transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by the boxes of the shapes.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.

@@ -22,6 +22,7 @@ mod solids;
 pub mod statistics;
 mod surface;
 mod texture;
+mod torus;
 mod vertex_color;
 mod world;
 

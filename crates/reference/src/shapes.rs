@@ -1,7 +1,7 @@
 //! Curved shapes that are no spheres, by their equations in the space where each is of a size of one.
 
-use crate::Ray;
 use crate::surface::Surface;
+use crate::{Ray, torus};
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
 use tracer_core::scene::Shape;
@@ -61,8 +61,8 @@ fn pieces(unit: &UnitShape) -> (Vec<Sheet>, Vec<Flat>) {
             };
             ((0..3).map(pair).collect(), Vec::new())
         }
-        // See `solids`.
-        UnitShape::Solid(_) => (Vec::new(), Vec::new()),
+        // See `torus` and `solids`.
+        UnitShape::Torus { .. } | UnitShape::Solid(_) => (Vec::new(), Vec::new()),
     }
 }
 
@@ -81,6 +81,9 @@ pub fn meet(ray: &Ray, shape: &Shape) -> Option<f64> {
 /// the planes of their faces.
 pub fn crossings(ray: &Ray, shape: &Shape) -> Vec<f64> {
     let (o, d, _) = object_ray(ray, shape);
+    if let UnitShape::Torus { tube } = shape.unit {
+        return torus::crossings(tube, o, d);
+    }
     let (sheets, flats) = pieces(&shape.unit);
     let mut found = Vec::new();
     for Sheet { squares, linear, constant, between } in sheets {
@@ -126,7 +129,10 @@ pub fn surface(body: u32, shape: &Shape, p: DVec3, direction: DVec3) -> Surface 
             best = (away, DVec3::new(0.0, 0.0, normal), Some((normal, outer)));
         }
     }
-    let (_, gradient, flat) = best;
+    let (_, mut gradient, flat) = best;
+    if let UnitShape::Torus { .. } = shape.unit {
+        gradient = torus::gradient(q);
+    }
     let outward = (inverse.transpose() * gradient).normalize();
     let outside = outward.dot(direction) < 0.0;
     let n = if outside { outward } else { -outward };
@@ -160,6 +166,7 @@ fn uv(unit: &UnitShape, q: DVec3, flat: Option<(f64, f64)>) -> [f64; 2] {
             let (right, up) = if upright { (q.x, -q.y) } else { (-q.x, q.y) };
             [(right / radius + 1.0) / 2.0, (up / radius + 1.0) / 2.0]
         }
+        (UnitShape::Torus { .. }, _) => [round, torus::section(q)],
         (UnitShape::Plane, _) => [q.x, q.y],
         (_, Some((_, radius))) => [(q.x / radius + 1.0) / 2.0, (q.y / radius + 1.0) / 2.0],
         (UnitShape::Capsule { half }, None) => {

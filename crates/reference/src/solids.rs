@@ -40,6 +40,7 @@ fn contains(unit: &UnitShape, q: DVec3) -> bool {
             q.z.abs() < 1.0 && q.truncate().length() < a + (b - a) * (q.z + 1.0) / 2.0
         }
         UnitShape::Capsule { half } => q.distance(DVec3::new(0.0, 0.0, q.z.clamp(-half, half))) < 1.0,
+        UnitShape::Torus { tube } => q.z.hypot(q.truncate().length() - 1.0) < tube,
         UnitShape::Plane => q.z < 0.0,
         UnitShape::Disk { .. } | UnitShape::Solid(_) => false,
     }

@@ -462,11 +462,11 @@ codes! {
     /// ```
     NO_EXTENT "E0542" "a shape without extent";
     /// A `Union`, an `Intersection` or a `Difference` takes closed shapes: `Sphere`, `Box`, `Cylinder` and `Cone` with
-    /// caps, `Capsule`, and each other. What is open has no inside; what is made of triangles, and groups, cannot be
-    /// part of one, nor can copies: `placements` of the whole make copies of it.
+    /// caps, `Capsule`, `Torus`, and each other. What is open has no inside; what is made of triangles, and groups,
+    /// cannot be part of one, nor can copies: `placements` of the whole make copies of it.
     ///
     /// ```ron
-    /// Scene(background: 1, objects: [Difference(objects: [Box(size: 2), Torus(radius: 1, tube_radius: 0.4)])])
+    /// Scene(background: 1, objects: [Difference(objects: [Box(size: 2), Disk(radius: 1)])])
     /// ```
     NO_OPERAND "E0543" "a shape that cannot be part of a solid";
     /// `Emissive` on a `Plane`, which has no end: nor would its light have one. Or on a `Union`, an `Intersection`, a

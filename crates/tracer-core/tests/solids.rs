@@ -112,6 +112,7 @@ impl Alone {
 fn depth(shape: &UnitShape, q: DVec3) -> f64 {
     match *shape {
         UnitShape::Sphere => 1.0 - q.length(),
+        UnitShape::Torus { tube } => tube - libm::hypot(q.truncate().length() - 1.0, q.z),
         UnitShape::Cube => 0.5 - q.abs().max_element(),
         UnitShape::Cone { radii: [a, b], .. } => {
             let side = 0.5 * (a + b) + 0.5 * (b - a) * q.z - q.truncate().length();
@@ -138,13 +139,16 @@ fn random_shape(random: &mut Random, depth: usize) -> String {
         _ => {}
     }
     let r = random.between(0.3, 0.9);
-    let words = match random.below(if depth > 0 { 9 } else { 5 }) {
+    let words = match random.below(if depth > 0 { 10 } else { 6 }) {
         0 => format!("Sphere(center: {}, radius: {r:.4}", p(random, 0.5)),
         1 => format!("Box(center: {}, size: ({r:.4}, {:.4}, 1.1)", p(random, 0.5), random.between(0.3, 1.5)),
         2 => format!("Cylinder(from: {}, to: {}, radius: {:.4}", p(random, 1.0), p(random, 1.0), 0.5 * r),
         3 => {
             let tip = if random.below(2) == 0 { 0.0 } else { 0.2 };
             format!("Cone(from: {}, to: {}, radius: {r:.4}, tip_radius: {tip}", p(random, 1.0), p(random, 1.0))
+        }
+        5 => {
+            format!("Torus(axis: {}, radius: {r:.4}, tube_radius: {:.4}", p(random, 1.0), r * random.between(0.2, 0.9))
         }
         4 => format!("Capsule(from: {}, to: {}, radius: {:.4}", p(random, 1.0), p(random, 1.0), 0.5 * r),
         _ => {

@@ -2,18 +2,18 @@
 //!
 //! A solid is one primitive. It is a list of [`Part`]s in postfix order: surfaces, which make operands, and operations.
 //! Every surface bounds a convex set (half a space, a ball, a round cone, a capsule), so a line is within it in one
-//! interval; an operand is what its surfaces have in common, and operations go by the sorted lists of intervals of both
+//! interval, or a torus, where it is in up to two; an operand is what its surfaces have in common, and operations go by the sorted lists of intervals of both
 //! sides. The nearest end ahead is the hit. Surfaces of several operands that are one and the same have the same
 //! numbers, hence the same ends to the last bit: where faces coincide there is neither a skin nor a wall nor a gap.
 //!
 //! A ray that leaves a solid is at t = 0 on the border that is nearest to where it starts, and on all surfaces that
 //! coincide with it there. Each of these it leaves, or goes into: it is within its convex set from 0 on, or never
-//! again. No epsilon decides.
+//! again; a torus that it leaves it may meet once more. No epsilon decides.
 //!
 //! Nothing here asks for memory: lists are arrays for the most operands that there may be, or shorter ones for few.
 
 use super::cone::Side;
-use super::{Interval, ObjectRay, both, quadratic, slab};
+use super::{Interval, ObjectRay, both, quadratic, slab, torus};
 use bytemuck::{Pod, Zeroable};
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -22,6 +22,9 @@ pub const MOST_OPERANDS: usize = 64;
 
 /// Parts of a solid, at most: of boxes, with the operations between them.
 const MOST_PARTS: usize = 7 * MOST_OPERANDS - 1;
+
+/// Intervals of a line within all operands, at most: two of each.
+const MOST_INTERVALS: usize = 2 * MOST_OPERANDS;
 
 /// Solids with so many parts have no more operands than [`FEW_OPERANDS`], and take less of the stack.
 const FEW_PARTS: usize = 24;
@@ -47,6 +50,11 @@ pub enum Surface {
     Capsule {
         /// Half the distance between its centres.
         half: f64,
+    },
+    /// As [`UnitShape::Torus`](super::UnitShape::Torus).
+    Torus {
+        /// Radius of its section.
+        tube: f64,
     },
 }
 
@@ -88,10 +96,11 @@ impl Part {
     const BALL: u32 = 1;
     const SIDE: u32 = 2;
     const CAPSULE: u32 = 3;
+    const TORUS: u32 = 4;
     /// The first of the operations.
-    const UNION: u32 = 4;
-    const INTERSECTION: u32 = 5;
-    const DIFFERENCE: u32 = 6;
+    const UNION: u32 = 5;
+    const INTERSECTION: u32 = 6;
+    const DIFFERENCE: u32 = 7;
 
     /// A surface under a map to render space. `flipped`: of a plane what is before it; `joins`: one more surface of the
     /// operand before it.
@@ -101,6 +110,7 @@ impl Part {
             Surface::Ball => (Self::BALL, [0.0; 2]),
             Surface::Side { radii } => (Self::SIDE, radii),
             Surface::Capsule { half } => (Self::CAPSULE, [half, 0.0]),
+            Surface::Torus { tube } => (Self::TORUS, [tube, 0.0]),
         };
         let inverse = map.matrix3.inverse();
         Part {
@@ -150,23 +160,37 @@ impl Part {
         Side::of(self.parameters)
     }
 
-    /// Where a line is within the set; `on`: it starts on the surface and goes into it.
-    fn interval(&self, origin: DVec3, direction: DVec3, on: bool) -> Option<Interval> {
+    fn is_torus(&self) -> bool {
+        self.kind == Self::TORUS
+    }
+
+    /// A line in its object space; `on`: it starts on the surface.
+    fn object_ray(&self, origin: DVec3, direction: DVec3, on: bool) -> ObjectRay {
+        let map = self.object_from_render();
         let from_anchor = origin - DVec3::from(self.anchor);
+        let t0 = if on { 0.0 } else { -(from_anchor.dot(direction) / direction.dot(direction)) };
+        ObjectRay { o: map * (from_anchor + t0 * direction), d: map * direction, t0 }
+    }
+
+    /// Where a line is within a torus; `start`: it starts on the surface, within or not from there.
+    fn within_torus(&self, origin: DVec3, direction: DVec3, start: Option<bool>) -> torus::Within {
+        torus::within(self.parameters[0], &self.object_ray(origin, direction, start.is_some()), start)
+    }
+
+    /// Where a line is within a convex set; `on`: it starts on the surface and goes into it.
+    fn interval(&self, origin: DVec3, direction: DVec3, on: bool) -> Option<Interval> {
         if self.kind == Self::PLANE {
             let n = DVec3::from(self.object[2]);
-            return half_line(n.dot(from_anchor), n.dot(direction), self.is_flipped(), on);
+            return half_line(n.dot(origin - DVec3::from(self.anchor)), n.dot(direction), self.is_flipped(), on);
         }
-        let map = self.object_from_render();
-        let t0 = if on { 0.0 } else { -(from_anchor.dot(direction) / direction.dot(direction)) };
-        let ray = ObjectRay { o: map * (from_anchor + t0 * direction), d: map * direction, t0 };
+        let ray = self.object_ray(origin, direction, on);
         let [near, far] = match self.kind {
             Self::BALL => super::ball(&ray, 0.0, on),
             Self::SIDE => self.side().within(&ray, on),
             _ => capsule(self.parameters[0], &ray),
         }?;
         // A ray that goes into it is in it from where it starts.
-        Some(if on { [0.0, far.max(0.0)] } else { [t0 + near, t0 + far] })
+        Some(if on { [0.0, far.max(0.0)] } else { [ray.t0 + near, ray.t0 + far] })
     }
 
     /// How far a point is from the surface, about, below zero within the set; and the unit normal there, outwards.
@@ -186,6 +210,7 @@ impl Part {
                 }
                 (0.5 * (across.dot(across) - r * r), across.extend(-r * side.slope))
             }
+            Self::TORUS => torus::depth(self.parameters[0], q),
             _ => {
                 let half = self.parameters[0];
                 let out = q - DVec3::new(0.0, 0.0, q.z.clamp(-half, half));
@@ -246,6 +271,20 @@ impl<const O: usize> Lists<O> {
             self.lengths[self.depth] = 0;
             self.depth += 1;
             self.set(interval);
+        }
+    }
+
+    /// One list more, of these.
+    fn push_all(&mut self, intervals: &[Interval]) {
+        let (depth, total) = (self.depth, self.total);
+        if depth < O && total + intervals.len() <= O {
+            let mut count = 0;
+            for interval in intervals.iter().filter(|[near, far]| near < far) {
+                self.intervals[total + count] = *interval;
+                count += 1;
+            }
+            self.lengths[depth] = count;
+            (self.depth, self.total) = (depth + 1, total + count);
         }
     }
 
@@ -452,9 +491,10 @@ const ALONG: f64 = 1.0 - 2e-6;
 
 /// The least t > 0 at which a ray meets the solid; `leaves`: it starts on it and is not met there.
 pub(super) fn hit(parts: &[Part], origin: DVec3, direction: DVec3, leaves: bool) -> Option<f64> {
-    match parts.len() <= FEW_PARTS {
-        true => hit_of::<FEW_PARTS, FEW_OPERANDS>(parts, origin, direction, leaves),
-        false => hit_of::<MOST_PARTS, MOST_OPERANDS>(parts, origin, direction, leaves),
+    match (parts.len() <= FEW_PARTS, parts.iter().any(Part::is_torus)) {
+        (true, false) => hit_of::<FEW_PARTS, FEW_OPERANDS>(parts, origin, direction, leaves),
+        (true, true) => hit_of::<FEW_PARTS, { 2 * FEW_OPERANDS }>(parts, origin, direction, leaves),
+        (false, _) => hit_of::<MOST_PARTS, MOST_INTERVALS>(parts, origin, direction, leaves),
     }
 }
 
@@ -472,7 +512,13 @@ fn hit_of<const P: usize, const O: usize>(
             lists.combine(part.kind);
             continue;
         }
-        let interval = match border.as_ref().map_or(0, |border| border.sign[k]) {
+        let sign = border.as_ref().map_or(0, |border| border.sign[k]);
+        if part.is_torus() {
+            let start = (sign != 0).then_some((sign > 0) != out);
+            lists.push_all(part.within_torus(origin, direction, start).intervals());
+            continue;
+        }
+        let interval = match sign {
             0 => part.interval(origin, direction, false),
             sign if (sign > 0) == out => None,
             _ => part.interval(origin, direction, true),

@@ -11,8 +11,8 @@
 //! side. What is made of several ([`csg`]) is one primitive, too.
 //!
 //! A ray that leaves a shape knows it and starts on it but for a rounding: the part that it starts on is found from the
-//! point, and its root there is 0 exactly. Convex shapes are then met on the way out only, by rays that go inwards; no
-//! epsilon.
+//! point, and its root there is 0 exactly. Convex shapes are then met on the way out only, by rays that go inwards, and
+//! of a torus the root of the start is known by the way that the ray takes; no epsilon.
 
 mod capsule;
 mod cone;
@@ -22,6 +22,7 @@ mod disk;
 mod lamp;
 mod plane;
 mod sphere;
+mod torus;
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
@@ -50,6 +51,11 @@ pub enum UnitShape {
     Capsule {
         /// Half the distance between its centres.
         half: f64,
+    },
+    /// All points at most `tube` away from the circle of radius 1 about the origin in the plane z = 0.
+    Torus {
+        /// Radius of its section, at most 1.
+        tube: f64,
     },
     /// The plane z = 0, facing +z; x is to the right, y up, and both are its texture coordinates. Open and without an
     /// end.
@@ -118,6 +124,7 @@ impl UnitShape {
     const CUBE: u32 = 4;
     const SOLID: u32 = 5;
     const PLANE: u32 = 6;
+    const TORUS: u32 = 7;
 
     fn numbers(&self) -> (u32, [f32; 3]) {
         match *self {
@@ -128,6 +135,7 @@ impl UnitShape {
                 (Self::CONE, [radii[0] as f32, radii[1] as f32, f32::from_bits(bits)])
             }
             UnitShape::Capsule { half } => (Self::CAPSULE, [half as f32, 0.0, 0.0]),
+            UnitShape::Torus { tube } => (Self::TORUS, [tube as f32, 0.0, 0.0]),
             UnitShape::Cube => (Self::CUBE, [0.0; 3]),
             UnitShape::Solid(Solid { parts: [first, count], .. }) => {
                 (Self::SOLID, [f32::from_bits(first), f32::from_bits(count), 0.0])
@@ -146,6 +154,7 @@ impl UnitShape {
                 (first * across - w.z).max(last * across + w.z)
             }
             UnitShape::Capsule { half } => w.length() + half * w.z.abs(),
+            UnitShape::Torus { tube } => w.truncate().length() + tube * w.length(),
             UnitShape::Cube => 0.5 * w.abs().element_sum(),
             UnitShape::Solid(Solid { bounds: [low, high], .. }) => (w * low).max(w * high).element_sum(),
             UnitShape::Plane if w.truncate() == glam::DVec2::ZERO => 0.0,
@@ -158,7 +167,11 @@ impl UnitShape {
         match self {
             UnitShape::Disk { .. } | UnitShape::Plane => false,
             UnitShape::Cone { caps, .. } => *caps,
-            UnitShape::Sphere | UnitShape::Capsule { .. } | UnitShape::Cube | UnitShape::Solid(_) => true,
+            UnitShape::Sphere
+            | UnitShape::Capsule { .. }
+            | UnitShape::Torus { .. }
+            | UnitShape::Cube
+            | UnitShape::Solid(_) => true,
         }
     }
 
@@ -236,6 +249,7 @@ impl Row {
             UnitShape::CAPSULE => capsule::hit(&self.parameters, &ray, leaves),
             UnitShape::CUBE => cube::hit(&ray, leaves),
             UnitShape::PLANE => plane::hit(&ray, leaves),
+            UnitShape::TORUS => torus::hit(&self.parameters, &ray, leaves),
             _ => sphere::hit(&ray, leaves),
         }
     }
@@ -265,6 +279,7 @@ impl Row {
             UnitShape::CAPSULE => capsule::surface(&self.parameters, q),
             UnitShape::CUBE => cube::surface(q),
             UnitShape::PLANE => plane::surface(q),
+            UnitShape::TORUS => torus::surface(&self.parameters, q),
             _ => sphere::surface(q),
         };
         OnUnit { q: point + map.inverse() * (on.q - q), n: (map.transpose() * on.n).normalize(), uv: on.uv }

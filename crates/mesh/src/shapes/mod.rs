@@ -13,7 +13,6 @@ mod outline;
 mod polygon;
 mod rounded_box;
 mod skew;
-mod torus;
 mod tube;
 
 pub use height_field::{Heights, MOST_HEIGHTS, height_field};
@@ -57,7 +56,6 @@ pub fn of_object(object: &Object) -> Option<&dyn Triangulated> {
         Object::Extrude(extrude) => &**extrude,
         Object::Polygon(polygon) => &**polygon,
         Object::Tube(tube) => &**tube,
-        Object::Torus(torus) => &**torus,
         Object::Arrow(arrow) => &**arrow,
         Object::Box(cuboid) if cuboid.is_rounded() => &**cuboid,
         _ => return None,

@@ -2,6 +2,7 @@
 //! in it a point that is uniform in area where the shape is of a size of one. What hides a part does not matter: all
 //! that a direction's line passes through count.
 
+use crate::torus;
 use glam::DVec3;
 use std::f64::consts::TAU;
 use tracer_core::scene::CurvedLight;
@@ -13,6 +14,8 @@ enum Part {
     Zone { z: f64, from: f64, to: f64 },
     /// x^2 + y^2 = r(z)^2, r being linear, between these heights.
     Side { heights: [f64; 2], radii: [f64; 2] },
+    /// At most `tube` away from the circle of radius 1 about the z axis.
+    Ring { tube: f64 },
     /// At one height between two radii.
     Flat { z: f64, radii: [f64; 2] },
 }
@@ -33,6 +36,7 @@ fn parts(unit: &UnitShape) -> Vec<Part> {
             Part::Zone { z: half, from: 0.0, to: 1.0 },
             Part::Side { heights: [-half, half], radii: [1.0; 2] },
         ],
+        UnitShape::Torus { tube } => vec![Part::Ring { tube }],
         UnitShape::Plane | UnitShape::Cube | UnitShape::Solid(_) => unreachable!("it does not shine"),
     }
 }
@@ -45,6 +49,7 @@ impl Part {
                 TAU / 2.0 * (first + last) * (high - low).hypot(last - first)
             }
             Part::Flat { radii: [inner, outer], .. } => TAU / 2.0 * (outer * outer - inner * inner),
+            Part::Ring { tube } => TAU * TAU * tube,
         }
     }
 
@@ -63,6 +68,15 @@ impl Part {
             }
             Part::Flat { z, radii: [inner, outer] } => {
                 round((inner * inner + u * (outer * outer - inner * inner)).sqrt(), z)
+            }
+            Part::Ring { tube } => {
+                // The area up to an angle a goes with a + tube sin a.
+                let [mut low, mut high] = [0.0, TAU];
+                for _ in 0..60 {
+                    let a: f64 = 0.5 * (low + high);
+                    if a + tube * a.sin() < TAU * u { low = a } else { high = a }
+                }
+                round(1.0 + tube * low.cos(), tube * low.sin())
             }
         }
     }
@@ -86,6 +100,9 @@ impl Part {
                 let all = roots(e.dot(e) - dr * dr, p.dot(e) - r * dr, p.dot(p) - r * r);
                 let within = all.into_iter().filter(|t| (low..=high).contains(&(o.z + t * d.z)));
                 within.map(|t| (t, (p + t * e).normalize().extend(-slope))).collect()
+            }
+            Part::Ring { tube } => {
+                torus::crossings(tube, o, d).into_iter().map(|t| (t, torus::gradient(o + t * d))).collect()
             }
             Part::Flat { z, radii: [inner, outer] } => {
                 let t = (z - o.z) / d.z;

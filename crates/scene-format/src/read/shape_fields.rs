@@ -87,6 +87,11 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
         ("subdivisions" | "segments" | "resolution" | "nu" | "nv" | "pz", "HeightField") => {
             "how fine it is is said by its picture's pixels: leave it out"
         }
+        (
+            "segments" | "sides" | "steps" | "resolution" | "slices" | "subdivisions" | "facets" | "major_segments"
+            | "minor_segments",
+            "Sphere" | "Cylinder" | "Cone" | "Capsule" | "Disk" | "Torus",
+        ) => "it is round, and not made of pieces: leave it out",
         ("twist" | "taper" | "scale_top", "Extrude") => {
             "the outline is the same all along: a `Mesh` takes other shapes"
         }

@@ -264,7 +264,6 @@ pub fn scene(random: &mut Random) -> SceneDesc {
                 axis: [0.3, number(random, -1.0, 1.0), 0.0].into(),
                 radius: length(random).into(),
                 tube_radius: length(random).into(),
-                segments: (3 + random.below(2046) as u32).into(),
                 material,
                 transform: transforms(random),
                 placements,

@@ -1,4 +1,4 @@
-//! Whether a thing lies within a closed body, or beside it, for sure: bodies with convex sides, closed meshes, and, by
+//! Whether a thing lies within a closed body, or beside it, for sure: unit shapes under a map, closed meshes, and, by
 //! [`Side::or`] and [`Side::not`], solids that are made of several.
 
 use super::curved::is_similar;
@@ -90,8 +90,8 @@ fn stretch(map: &DAffine3) -> f64 {
     (m.x_axis.length_squared() + m.y_axis.length_squared() + m.z_axis.length_squared()).sqrt()
 }
 
-/// A body with convex sides: a unit shape under an affine map.
-pub struct Convex {
+/// A body with round or flat sides: a unit shape under an affine map.
+pub struct UnitBody {
     to_unit: DAffine3,
     unit: Unit,
 }
@@ -103,6 +103,8 @@ enum Unit {
     Round { half: f64 },
     /// Closed, about the z axis from -1 to 1, with these radii at its ends.
     Cone { radii: [f64; 2] },
+    /// At most `tube` away from the circle of radius 1 in the plane z = 0. It is not convex.
+    Ring { tube: f64 },
     /// What is behind the plane z = 0.
     Behind,
 }
@@ -118,24 +120,31 @@ fn reach_across(to_unit: &DAffine3, slope: f64) -> f64 {
     1.005 * (0..NORMALS).map(reach).fold(0.0, f64::max)
 }
 
-impl Convex {
+impl UnitBody {
     /// A unit shape under a map; `None`: it is not closed. What is behind a plane is a body, too, for solids.
-    pub fn of(unit: &UnitShape, map: &DAffine3) -> Option<Convex> {
+    pub fn of(unit: &UnitShape, map: &DAffine3) -> Option<UnitBody> {
         let unit = match *unit {
             UnitShape::Sphere => Unit::Round { half: 0.0 },
             UnitShape::Capsule { half } => Unit::Round { half },
             UnitShape::Cone { radii, caps: true, .. } => Unit::Cone { radii },
             UnitShape::Cube => Unit::Cube,
+            UnitShape::Torus { tube } => Unit::Ring { tube },
             UnitShape::Plane => Unit::Behind,
             UnitShape::Cone { .. } | UnitShape::Disk { .. } | UnitShape::Solid(_) => return None,
         };
-        Some(Convex { to_unit: map.inverse(), unit })
+        Some(UnitBody { to_unit: map.inverse(), unit })
     }
 
     /// Where a thing lies.
     pub fn side(&self, extent: &Extent) -> Side {
         let corners = || extent.corners.iter().map(|corner| self.to_unit.transform_point3(*corner));
-        if corners().all(|corner| self.holds(corner, extent.radius)) {
+        if let Unit::Ring { .. } = self.unit {
+            // Two corners may lie in it without what is between them.
+            let (center, radius) = extent.around();
+            if self.holds(self.to_unit.transform_point3(center), radius) {
+                return Side::In;
+            }
+        } else if corners().all(|corner| self.holds(corner, extent.radius)) {
             return Side::In;
         }
         let (low, high) = bounds(corners());
@@ -160,6 +169,10 @@ impl Convex {
                 1.0 - p.z.abs() > row(2)
                     && side > if radius > 0.0 { radius * reach_across(&self.to_unit, slope) } else { 0.0 }
             }
+            Unit::Ring { tube } => {
+                let from_middle = libm::hypot(p.truncate().length() - 1.0, p.z);
+                tube - from_middle > if radius > 0.0 { radius * stretch(&self.to_unit) } else { 0.0 }
+            }
             Unit::Behind => -p.z > row(2),
         }
     }
@@ -176,6 +189,10 @@ impl Convex {
             }
             Unit::Cone { radii: [first, last] } => {
                 low.z > 1.0 || high.z < -1.0 || x * x + y * y > first.max(last) * first.max(last)
+            }
+            Unit::Ring { tube } => {
+                let farthest = low.truncate().abs().max(high.truncate().abs()).length();
+                low.z > tube || high.z < -tube || libm::hypot(x, y) > 1.0 + tube || farthest < 1.0 - tube
             }
             Unit::Behind => low.z > 0.0,
         }
@@ -288,23 +305,24 @@ mod tests {
     }
 
     #[test]
-    fn convex_bodies_hold_what_lies_in_them() {
+    fn unit_bodies_hold_what_lies_in_them() {
         let map = DAffine3 { matrix3: DMat3::from_diagonal(DVec3::new(2.0, 2.0, 4.0)), translation: DVec3::X };
         let shapes = [
             (UnitShape::Sphere, [0.0, 0.0, 3.8], [0.0, 0.0, 4.2]),
             (UnitShape::Capsule { half: 1.0 }, [0.0, 1.8, 4.0], [0.0, 2.2, 4.0]),
             (UnitShape::Cone { radii: [1.0, 0.0], caps: true, upright: false }, [0.9, 0.0, 0.0], [2.1, 0.0, 0.0]),
+            (UnitShape::Torus { tube: 0.5 }, [0.0, 2.8, 0.0], [0.0, 0.8, 0.0]),
             (UnitShape::Cube, [0.9, 0.9, 1.9], [0.9, 1.1, 1.9]),
             (UnitShape::Plane, [9.0, 9.0, -0.1], [9.0, 9.0, 0.1]),
         ];
         for (unit, inside, outside) in shapes {
-            let body = Convex::of(&unit, &map).expect("is closed");
+            let body = UnitBody::of(&unit, &map).expect("is closed");
             let at = |p: [f64; 3], radius: f64| body.side(&Extent::ball(DVec3::from(p) + DVec3::X, radius));
             assert_eq!((at(inside, 0.0), at(outside, 0.0)), (Side::In, Side::Out), "{unit:?}");
             assert_eq!((at(inside, 0.5), at(outside, 0.5)), (Side::Unknown, Side::Unknown), "{unit:?}");
             assert_eq!((at(inside, 0.01), at(outside, 0.01)), (Side::In, Side::Out), "{unit:?}");
         }
-        assert!(Convex::of(&UnitShape::Disk { inner: 0.0 }, &map).is_none());
+        assert!(UnitBody::of(&UnitShape::Disk { inner: 0.0 }, &map).is_none());
     }
 
     /// The same of meshes whichever way they are wound, under maps; what is not closed has no inside.
@@ -332,7 +350,8 @@ mod tests {
     /// A ring: what lies in its hole lies beside it, though in its box.
     #[test]
     fn holes_are_beside() {
-        let scene = "Scene(background: 1, objects: [Torus(radius: 2, tube_radius: 0.5)])";
+        let ring = "Lathe(profile: [(1.5, -0.5), (2.5, -0.5), (2.5, 0.5), (1.5, 0.5), (1.5, -0.5)])";
+        let scene = &format!("Scene(background: 1, objects: [{ring}])");
         let loaded = scene_format::load_str("a.ron", scene, scene_format::Syntax::Ron, std::path::Path::new(""), &[]);
         let desc = loaded.expect("is right").scene;
         let made = tracer_mesh::shapes::of_object(&desc.objects[0].value).expect("becomes triangles");

@@ -4,7 +4,7 @@
 //! meet them at the same places to the last bit, and where faces coincide nothing is between them.
 
 use super::assets::Sources;
-use super::bodies::{Convex, Extent, Side};
+use super::bodies::{Extent, Side, UnitBody};
 use super::curved::{Written, written};
 use super::materials::MaterialBuilder;
 use super::placing::{Given, Maps, Subject, check, place, place_all};
@@ -293,6 +293,7 @@ fn surfaces(unit: &UnitShape) -> Vec<(Surface, DAffine3)> {
             vec![(Surface::Side { radii }, DAffine3::IDENTITY), plane(2, 1.0), plane(2, -1.0)]
         }
         UnitShape::Capsule { half } => vec![(Surface::Capsule { half }, DAffine3::IDENTITY)],
+        UnitShape::Torus { tube } => vec![(Surface::Torus { tube }, DAffine3::IDENTITY)],
         UnitShape::Cube => (0..3).flat_map(|axis| [plane(axis, 0.5), plane(axis, -0.5)]).collect(),
         UnitShape::Plane => vec![(Surface::Plane, DAffine3::IDENTITY)],
         // Others are no operands.
@@ -336,7 +337,19 @@ impl Scale {
                 let moved = (a.1.translation - b.1.translation).length();
                 (turned.max(moved) <= SAME * self.size && (half - other).abs() <= SAME * half).then_some(false)
             }
-            (Surface::Plane | Surface::Capsule { .. }, _) | (_, Surface::Plane | Surface::Capsule { .. }) => None,
+            (Surface::Torus { tube }, Surface::Torus { tube: other }) => {
+                // It may be turned about its axis, and upside down.
+                let [map, other_map] = [a.1, b.1];
+                let turned = map.matrix3 * map.matrix3.transpose() - other_map.matrix3 * other_map.matrix3.transpose();
+                let most = turned.to_cols_array().iter().fold(0.0f64, |most, x| most.max(x.abs()));
+                let [n, other_n] = [map, other_map].map(|map| map.matrix3.inverse().row(2) * self.size);
+                let tilted = (n - other_n).length().min((n + other_n).length());
+                let moved = (map.translation - other_map.translation).length();
+                let same = most <= SAME * self.size * self.size && tilted <= SAME * n.length();
+                (same && moved <= SAME * self.size && (tube - other).abs() <= SAME * tube).then_some(false)
+            }
+            (Surface::Plane | Surface::Capsule { .. } | Surface::Torus { .. }, _)
+            | (_, Surface::Plane | Surface::Capsule { .. } | Surface::Torus { .. }) => None,
             _ => {
                 let (first, second) = (self.quadric(a), self.quadric(b));
                 let same = (first - second).to_cols_array().iter().all(|x| x.abs() <= SAME);
@@ -389,7 +402,7 @@ fn side(node: &Node, operands: &[OperandWritten], map: &DAffine3, extent: &Exten
     match node {
         Node::Operand(k) => {
             let operand = &operands[*k];
-            let body = Convex::of(&operand.unit, &(*map * operand.moved * operand.local));
+            let body = UnitBody::of(&operand.unit, &(*map * operand.moved * operand.local));
             body.map_or(Side::Unknown, |body| body.side(extent))
         }
         Node::Made(operation, nodes) => {
@@ -423,7 +436,7 @@ impl SolidObject {
 
     /// The hollows of a copy that nothing leads into: what a difference takes away within the first, and apart from all
     /// else that it takes away.
-    pub fn hollows(&self, map: &DAffine3) -> Vec<Convex> {
+    pub fn hollows(&self, map: &DAffine3) -> Vec<UnitBody> {
         let Node::Made(Operation::Difference, nodes) = &self.node else { return Vec::new() };
         let [first, taken @ ..] = nodes.as_slice() else { return Vec::new() };
         let hollow = |(k, node): (usize, &Node)| {
@@ -434,7 +447,7 @@ impl SolidObject {
             let lies = |node: &Node| side(node, &self.operands, map, &extent);
             let mut others = taken.iter().enumerate().filter(|(other, _)| *other != k);
             let is_shut = lies(first) == Side::In && others.all(|(_, other)| lies(other) == Side::Out);
-            if is_shut { Convex::of(&operand.unit, &whole) } else { None }
+            if is_shut { UnitBody::of(&operand.unit, &whole) } else { None }
         };
         taken.iter().enumerate().filter_map(hollow).collect()
     }

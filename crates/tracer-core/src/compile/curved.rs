@@ -8,7 +8,8 @@ use super::settled::Settled;
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::codes;
 use scene_format::desc::{
-    Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Plane, Radiometric, Vec3, cannot_shine,
+    Capsule, Cone, Cylinder, Disk, Emissive, Material, MaterialRef, Object, Plane, Radiometric, Torus, Vec3,
+    cannot_shine,
 };
 use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
@@ -47,6 +48,7 @@ pub(super) fn written(object: &Object) -> Option<Written> {
         Object::Cylinder(cylinder) => Some(of_cylinder(cylinder)),
         Object::Cone(cone) => Some(of_cone(cone)),
         Object::Capsule(capsule) => Some(of_capsule(capsule)),
+        Object::Torus(torus) => Some(of_torus(torus)),
         _ => None,
     }
 }
@@ -109,6 +111,14 @@ fn of_capsule(capsule: &Capsule) -> Written {
     let radius = capsule.radius.value;
     let unit = UnitShape::Capsule { half: axis.half / radius };
     Written { unit, local: axis.map(radius, radius), noun: "capsule" }
+}
+
+fn of_torus(torus: &Torus) -> Written {
+    let [right, up, axis] = sides(DVec3::from(torus.axis.value));
+    let radius = torus.radius.value;
+    let matrix3 = DMat3::from_cols(right, up, axis) * radius;
+    let unit = UnitShape::Torus { tube: torus.tube_radius.value / radius };
+    Written { unit, local: DAffine3 { matrix3, translation: DVec3::from(torus.center.value) }, noun: "torus" }
 }
 
 /// An object with curved sides in the scene.

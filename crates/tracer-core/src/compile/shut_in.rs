@@ -5,7 +5,7 @@
 //! surely in a body and all lamps are surely beside it, all is black, and so is what a lamp does that is surely in a
 //! body and the camera beside it. A body in which there are both is a room.
 
-use super::bodies::{Convex, Extent, MeshBody, Side};
+use super::bodies::{Extent, MeshBody, Side, UnitBody};
 use super::csg::SolidObject;
 use super::curved::Curved;
 use super::meshes::Loaded;
@@ -43,7 +43,7 @@ pub struct Made<'a> {
 
 /// What one can be in.
 enum Body<'a> {
-    Convex(Convex),
+    Unit(UnitBody),
     /// With its place among the meshes, so that all copies have one, and its map.
     Mesh(usize, &'a DAffine3),
     /// With the map of a copy.
@@ -77,7 +77,7 @@ pub fn warn(desc: &SceneDesc, made: &Made<'_>, diagnostics: &mut Diagnostics) {
     let mut left = MOST_TRIANGLES;
     let few = found.bodies.len().saturating_mul(found.lamps.len()) <= MOST_PAIRS;
     let mut side = |body: &Body<'_>, extent: &Extent| match body {
-        Body::Convex(convex) => convex.side(extent),
+        Body::Unit(body) => body.side(extent),
         Body::Mesh(mesh, map) => found.meshes[*mesh].side(map, extent, &mut left),
         Body::Solid(solid, map) => solid.side(map, extent),
     };
@@ -164,14 +164,14 @@ fn find<'a>(desc: &'a SceneDesc, made: &Made<'a>) -> Found<'a> {
                 found.has_more_lamps |= curved.maps.len() > MOST_COPIES;
                 found.lamps.extend(maps.map(|map| lamp(Extent::of_unit(&curved.unit, map))));
             } else if opaque && curved.unit != shapes::UnitShape::Plane {
-                let bodies = maps.filter_map(|map| Convex::of(&curved.unit, map));
-                found.bodies.extend(bodies.map(|body| (Body::Convex(body), index)));
+                let bodies = maps.filter_map(|map| UnitBody::of(&curved.unit, map));
+                found.bodies.extend(bodies.map(|body| (Body::Unit(body), index)));
             }
         } else if let Some(solid) = solids.next_if(|solid| solid.number() == number) {
             let maps = solid.maps().iter().take(MOST_COPIES).filter(|_| opaque);
             for map in maps {
                 found.bodies.push((Body::Solid(solid, map), index));
-                found.bodies.extend(solid.hollows(map).into_iter().map(|hollow| (Body::Convex(hollow), index)));
+                found.bodies.extend(solid.hollows(map).into_iter().map(|hollow| (Body::Unit(hollow), index)));
             }
         } else if let Some((k, polygonal)) = flat.next_if(|(_, flat)| flat.number == number) {
             let Some(data) = made.loaded.file(k) else { continue };
@@ -207,8 +207,8 @@ impl<'a> Found<'a> {
         match object.geometry {
             Geometry::Unit(UnitShape::Square) | Geometry::Heights(_) => {}
             Geometry::Unit(UnitShape::Cube) => {
-                let bodies = maps.filter_map(|map| Convex::of(&shapes::UnitShape::Cube, map));
-                self.bodies.extend(bodies.map(|body| (Body::Convex(body), index)));
+                let bodies = maps.filter_map(|map| UnitBody::of(&shapes::UnitShape::Cube, map));
+                self.bodies.extend(bodies.map(|body| (Body::Unit(body), index)));
             }
             Geometry::File(_) | Geometry::Inline(_) | Geometry::Made(_) => {
                 let mesh = self.meshes.len();

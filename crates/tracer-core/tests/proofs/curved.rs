@@ -1,11 +1,11 @@
-//! Disks, cylinders, cones, capsules and ellipsoids: engine and reference make the same picture, whatever they are made
+//! Disks, cylinders, cones, capsules, tori and ellipsoids: engine and reference make the same picture, whatever they are made
 //! of; placed spheres.
 
 use crate::support::compare::{Samples, assert_same_picture};
 use crate::support::describe::*;
 use scene_format::desc::{
     Capsule, Cone, Cylinder, Disk, Emissive, LightGroup, Material, MaterialRef, Name, Object, PerAxis, PlacementList,
-    Placements, Rectangle, Transform, Transparent, Vec3,
+    Placements, Rectangle, Torus, Transform, Transparent, Vec3,
 };
 use scene_format::{SceneDesc, desc::Amount};
 use tracer_core::compile;
@@ -76,6 +76,20 @@ pub fn capsule(from: Vec3, to: Vec3, radius: f64, material: Material) -> Object 
     }))
 }
 
+pub fn torus(center: Vec3, axis: Vec3, [radius, tube]: [f64; 2], material: Material) -> Object {
+    Object::Torus(Box::new(Torus {
+        center: center.into(),
+        axis: axis.into(),
+        radius: radius.into(),
+        tube_radius: tube.into(),
+        material: inline(material),
+        transform: Vec::new(),
+        placements: Placements::One,
+        camera_visible: true,
+        name: Name::default(),
+    }))
+}
+
 fn floor() -> Object {
     Object::Rectangle(Box::new(Rectangle {
         center: [0.0; 3].into(),
@@ -130,6 +144,12 @@ fn curved_shapes_as_the_reference_sees_them() {
             turned(capsule([1.2, 0.8, 0.0], [1.9, 1.2, 0.3], 0.4, m()), shear()),
             turned(sphere([0.2, 1.9, -0.6], 0.6, m()), stretch()),
         ];
+        let tori = vec![
+            torus([-1.3, 0.9, 0.2], [0.6, 0.3, 1.0], [0.6, 0.25], m()),
+            turned(torus([0.4, 0.7, 0.9], [0.0, 1.0, 0.2], [0.4, 0.4], m()), stretch()),
+            turned(torus([1.5, 0.9, 0.0], [0.3, 0.5, 0.5], [0.7, 0.1], m()), shear()),
+        ];
+        assert_same_picture(&format!("tori, {name}"), &view(tori), samples);
         assert_same_picture(&format!("closed, {name}"), &view(closed), samples);
         if name != "glass" {
             let open = vec![
@@ -140,6 +160,24 @@ fn curved_shapes_as_the_reference_sees_them() {
             assert_same_picture(&format!("open, {name}"), &view(open), samples);
         }
     }
+}
+
+/// Tori of three materials, one of which shines.
+#[test]
+fn tori_as_the_reference_sees_them() {
+    let samples = Samples { engine: 128, reference: 128 };
+    let lamp = Material::Emissive(Box::new(Emissive {
+        amount: Amount::Power([9.0; 3]).into(),
+        color: [1.0; 3].into(),
+        two_sided: false,
+        group: LightGroup::default(),
+    }));
+    let tori = vec![
+        torus([-1.3, 0.9, 0.2], [0.6, 0.3, 1.0], [0.6, 0.25], diffuse([0.3, 0.5, 0.8])),
+        turned(torus([0.4, 0.7, 0.9], [0.0, 1.0, 0.2], [0.4, 0.4], blinn_phong([0.5; 3], 120.0, 0.2)), stretch()),
+        turned(torus([1.5, 0.9, 0.0], [0.3, 0.5, 0.5], [0.7, 0.1], lamp), shear()),
+    ];
+    assert_same_picture("tori", &view(tori), samples);
 }
 
 /// A sphere that is moved and scaled alike is that sphere: the same bytes. One that shines may turn, too.

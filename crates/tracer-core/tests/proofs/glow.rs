@@ -41,11 +41,13 @@ pub(crate) fn lamps() -> SceneDesc {
          Rectangle(center: (0.6, 2, 0.3), normal: (0, -1, 0), size: 0.8, material: {}), \
          Capsule(from: (-1.5, 2, 0.4), to: (-0.6, 2.2, 0.4), radius: 0.2, material: {}), \
          Sphere(center: (1.6, 1.8, 0), radius: 0.2, material: {}), \
+         Torus(center: (1.2, 2.2, -0.5), axis: (0.2, 1, 0.5), radius: 0.3, tube_radius: 0.1, material: {}), \
          Sphere(center: (-0.2, 0.3, 1.5), radius: 0.2, material: Emissive(radiance: 2)), \
          Mesh(file: {:?}, material: {}, transform: [Scale(0.4), Translate((-0.3, 1.9, -1.3))])",
         glow(9.0, CHECKERED, true),
         glow(7.0, "Noise(a: 0, b: (1, 0.7, 0.4), mapping: World(scale: 3))", false),
         glow(9.0, &image(), false),
+        glow(6.0, "Checkerboard(a: (1, 0.9, 0.7), b: 0.2, mapping: Uv(scale: (6, 2)))", false),
         square(1.0).obj("square-1"),
         glow(5.0, "Checkerboard(a: 1, b: 0.05, mapping: Triplanar(scale: 3))", true),
     );

@@ -29,7 +29,9 @@ const BODIES: &str = r#"
         Difference(objects: [
             Box(size: (1.2, 0.4, 0.4), transform: [Translate((0.3, 0, 0))]),
             Capsule(from: (0.6, -1, 0), to: (0.6, 1, 0), radius: 0.12),
+            Torus(center: (0.3, 0.2, 0), radius: 0.15, tube_radius: 0.05),
         ]),
+        Torus(center: (0, -0.3, 0), axis: (0.3, 1, 0), radius: 0.4, tube_radius: 0.12),
     ]),
     Intersection(material: "it", objects: [
         Box(center: (1.8, 0.6, 0.6), size: 1, transform: [Rotate(axis: (0, 1, 0), degrees: 25)]),
@@ -173,6 +175,11 @@ fn glass_solids_in_a_white_furnace_cannot_be_seen() {
             "Difference(objects: [Sphere(center: (0, 0, 0), radius: 1), \
              Sphere(center: (0, 0, 0), radius: 0.9), Box(center: (0, 1, 0), size: 2)], ",
         ),
+        (
+            "rings",
+            "Union(objects: [Torus(radius: 0.7, tube_radius: 0.25), Torus(axis: (1, 0, 0), radius: 0.6, tube_radius: 0.2), \
+             Torus(radius: 0.7, tube_radius: 0.25)], ",
+        ),
         ("step", "Difference(objects: [Box(), Box(center: (0.25, 0.25, 0), size: (0.5, 0.5, 1))], "),
     ];
     for (name, body) in bodies {
@@ -212,6 +219,7 @@ fn solids_that_are_one_of_their_shapes() {
         "Cylinder(from: (-0.6, 0.3, 0), to: (0.5, 1.2, 0.3), radius: 0.4)",
         "Cone(from: (0, 0.01, 0), to: (0.2, 1.4, 0), radius: 0.8, tip_radius: 0.2)",
         "Capsule(from: (-0.6, 0.5, 0), to: (0.6, 0.8, 0.3), radius: 0.4)",
+        "Torus(center: (0.5, 0.6, 0), axis: (0, 0.3, 1), radius: 0.5, tube_radius: 0.25)",
         "Box(center: (0, 0.6, 0), transform: [Rotate(axis: (0, 1, 0), degrees: 25)])",
     ];
     let with = |body: &str| {
@@ -277,11 +285,11 @@ fn faults_of_solids() {
     assert!(told(&desc).is_empty());
     let scene_format::desc::Object::Union(union) = &mut desc.objects[0].value else { panic!("a union") };
     let shape = |text: &str| described(&format!("Scene(background: 1, objects: [{text}])")).objects.remove(0);
-    union.objects.0.push(shape("Torus(radius: 1, tube_radius: 0.2)"));
+    union.objects.0.push(shape("Arrow(radius: 0.2)"));
     union.objects.0.push(shape("Cylinder(radius: 1, caps: false)"));
     let expected = [
+        "E0543: an `Arrow` is made of triangles, and cannot be part of a solid",
         "E0543: an open cylinder has no inside",
-        "E0543: a `Torus` is made of triangles, and cannot be part of a solid",
     ];
     assert_eq!(told(&desc), expected);
     let scene_format::desc::Object::Union(union) = &mut desc.objects[0].value else { panic!("a union") };

@@ -1,9 +1,11 @@
-//! Disks, cylinders, cones, capsules and planes.
+//! Disks, cylinders, cones, capsules, tori and planes.
 
 use super::draw::once_in;
 use super::meshes::Point;
 use super::world::{World, inline};
-use scene_format::desc::{Capsule, Cone, Cylinder, Disk, Extent, Material, Name, Object, Placements, Plane, Transform};
+use scene_format::desc::{
+    Capsule, Cone, Cylinder, Disk, Extent, Material, Name, Object, Placements, Plane, Torus, Transform,
+};
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
 
@@ -53,7 +55,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let there = vec![Transform::Translate(center).into()];
     let placements =
         if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One };
-    let object = match random.below(4) {
+    let object = match random.below(6) {
         0 if !glass => Object::Disk(Box::new(Disk {
             center: middle.into(),
             normal: axis.to_array().into(),
@@ -82,6 +84,17 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
             radius: wide.into(),
             tip_radius: if once_in(random, 2) { random.between(0.1, 0.5) * radius } else { 0.0 }.into(),
             caps,
+            material,
+            transform,
+            placements,
+            camera_visible: true,
+            name: Name::default(),
+        })),
+        3 => Object::Torus(Box::new(Torus {
+            center: middle.into(),
+            axis: axis.to_array().into(),
+            radius: (0.55 * radius).into(),
+            tube_radius: (random.between(0.05, 0.5) * radius).into(),
             material,
             transform,
             placements,

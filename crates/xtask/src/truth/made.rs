@@ -8,7 +8,7 @@ use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
     Arrow, Corners, Curve, Extrude, HeightField, Lathe, Material, Name, Object, Outline, PathPoints, Placements,
-    Polygon, Profile, Radii, Torus, Transform, Tube, TubeCurve, Vec3,
+    Polygon, Profile, Radii, Transform, Tube, TubeCurve, Vec3,
 };
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -72,19 +72,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
                 name,
             }))
         }
-        4 | 9 => Object::Torus(Box::new(Torus {
-            center: [0.0, random.between(-0.1, 0.1) * radius, 0.0].into(),
-            axis: [random.between(-1.0, 1.0), 0.5, random.between(-1.0, 1.0)].into(),
-            radius: (0.5 * radius).into(),
-            tube_radius: (random.between(0.05, 0.5) * radius).into(),
-            segments: segments.into(),
-            material,
-            transform,
-            placements,
-            camera_visible: true,
-            name,
-        })),
-        5 => Object::Arrow(Box::new(Arrow {
+        4 | 5 => Object::Arrow(Box::new(Arrow {
             from: [0.0, -0.6 * radius, 0.0].into(),
             to: [random.between(-0.5, 0.5) * radius, 0.6 * radius, 0.0].into(),
             radius: (random.between(0.05, 0.15) * radius).into(),

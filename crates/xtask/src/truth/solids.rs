@@ -6,7 +6,7 @@ use super::meshes::Point;
 use super::world::{World, inline};
 use scene_format::desc::{
     Capsule, Cone, Cylinder, Difference, Intersection, Material, MaterialRef, Name, Object, Operands, PerAxis,
-    Placements, Plane, RectBox, Sphere, Transform, Union,
+    Placements, Plane, RectBox, Sphere, Torus, Transform, Union,
 };
 use scene_format::diagnostic::Spanned;
 use tracer_reference::Random;
@@ -87,6 +87,7 @@ fn solid(middle: Point, radius: f64, material: &Material, depth: usize, random: 
     }
 }
 
+// Long: one arm for each shape, with its fields.
 fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random: &mut Random) -> Object {
     let axis = random.direction();
     let (long, wide) = (random.between(0.4, 0.7) * radius, random.between(0.3, 0.6) * radius);
@@ -94,7 +95,7 @@ fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random
     let material_ref = if once_in(random, 3) { inline(material.clone()) } else { MaterialRef::Default };
     let transform = if once_in(random, 3) { steps(middle, radius, random) } else { Vec::new() };
     let (placements, name) = (Placements::One, Name::default());
-    match random.below(if depth > 0 { 6 } else { 5 }) {
+    match random.below(if depth > 0 { 7 } else { 6 }) {
         0 => Object::Sphere(Box::new(Sphere {
             center: middle.into(),
             radius: (0.8 * radius).into(),
@@ -131,6 +132,17 @@ fn operand(middle: Point, radius: f64, material: &Material, depth: usize, random
             radius: wide.into(),
             tip_radius: if once_in(random, 2) { 0.5 * wide } else { 0.0 }.into(),
             caps: true,
+            material: material_ref,
+            transform,
+            placements,
+            camera_visible: true,
+            name,
+        })),
+        5 => Object::Torus(Box::new(Torus {
+            center: middle.into(),
+            axis: axis.to_array().into(),
+            radius: (0.5 * radius).into(),
+            tube_radius: (0.5 * wide).into(),
             material: material_ref,
             transform,
             placements,

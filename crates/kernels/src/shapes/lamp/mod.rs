@@ -7,7 +7,7 @@
 //!
 //! From within a closed shape all directions meet it, and are as likely as each other. From outside a part is chosen,
 //! by about the solid angle that it covers: what is seen of a side from its front or its back ([`side`]), a ball
-//! ([`round`]), a disk or cap ([`flat`]). A capsule is two balls and a side that overlap: all that could have taken a
+//! ([`round`]), a disk or cap ([`flat`]); a torus is one part ([`ring`]). A capsule is two balls and a side that overlap: all that could have taken a
 //! direction count. What a part's direction meets is found as rays find it; where that is another part, which hides it,
 //! the sample is nothing.
 //!
@@ -15,12 +15,14 @@
 
 mod area;
 mod flat;
+mod ring;
 mod round;
 mod side;
 
 use super::{Row, UnitShape};
 use flat::Flat;
 use glam::{DAffine3, DMat3, DVec3};
+use ring::Ring;
 use side::{Facing, Side};
 use std::f64::consts::PI;
 
@@ -35,6 +37,8 @@ enum Form {
     Cone { side: Side, caps: Option<[Flat; 2]> },
     /// What is at most 1 away from the z axis between its side's ends.
     Capsule(Side),
+    /// A torus.
+    Torus(Ring),
 }
 
 /// A curved shape that shines.
@@ -130,6 +134,7 @@ impl Lamp {
                 Form::Cone { side, caps: caps.then(|| [cap(-half, first), cap(half, last)]) }
             }
             UnitShape::Capsule { half } => Form::Capsule(Side { middle: 1.0, slope: 0.0, half: held(half) }),
+            UnitShape::Torus { tube } => Form::Torus(Ring { tube: held(tube) }),
             UnitShape::Plane | UnitShape::Cube | UnitShape::Solid(_) => unreachable!("it does not shine"),
         };
         let of_side =
@@ -144,6 +149,7 @@ impl Lamp {
             Form::Cone { side, caps: None } => [of_side(side), nothing, nothing],
             Form::Cone { side, caps: Some([low, high]) } => [of_side(side), of_flat(low), of_flat(high)],
             Form::Capsule(side) => [of_side(side), ball, nothing],
+            Form::Torus(ring) => [Share { own: ring.area(), area: area::of_torus(&map, ring.tube) }, nothing, nothing],
         };
         let [low, high] = unit.bounds(placement);
         let magnitude = low.abs().max(high.abs()).element_sum();
@@ -187,7 +193,7 @@ impl Lamp {
             return None;
         }
         let (part, u) = picked(&view.weights, u);
-        let to = self.directed(&view, part, u, v);
+        let to = self.directed(&view, part, u, v)?;
         let direction = (self.map * to).try_normalize()?;
         let t = self.row.meet(from, direction, false)?;
         let (way, length) = self.way(view.o, direction, t);
@@ -236,6 +242,7 @@ impl Lamp {
             Form::Disk(_) | Form::Cone { caps: None, .. } => false,
             Form::Cone { side, .. } => o.z.abs() <= side.half && side.holds(o),
             Form::Capsule(side) => (o - DVec3::new(0.0, 0.0, o.z.clamp(-side.half, side.half))).length_squared() <= 1.0,
+            Form::Torus(ring) => ring.holds(o),
         };
         let mut weights = [0.0; 4];
         match &self.form {
@@ -258,14 +265,15 @@ impl Lamp {
                 weights[LOW] = round::measure(side.beside_end(o, -1.0));
                 weights[HIGH] = round::measure(side.beside_end(o, 1.0));
             }
+            Form::Torus(_) => weights[NEAR] = 1.0,
         }
         View { o, within, weights, sum: weights.iter().sum() }
     }
 
-    /// A direction of own space to a part of it, for two random numbers.
-    fn directed(&self, view: &View, part: usize, u: f64, v: f64) -> DVec3 {
+    /// A direction of own space to a part of it, for two random numbers; `None`: this time none.
+    fn directed(&self, view: &View, part: usize, u: f64, v: f64) -> Option<DVec3> {
         let o = view.o;
-        match &self.form {
+        let to = match &self.form {
             _ if view.within => round::anywhere(u, v),
             Form::Ball => round::direction(o, u, v),
             Form::Disk(flat) => flat.towards(o, u, v) - o,
@@ -277,7 +285,9 @@ impl Lamp {
                 let facing = if part == FAR { Facing::Far } else { Facing::Near };
                 side.towards(&side.seen(o), facing, u, v) - o
             }
-        }
+            Form::Torus(ring) => ring.towards(o, u, v)? - o,
+        };
+        Some(to)
     }
 
     /// The density of a direction in own space.
@@ -297,6 +307,7 @@ impl Lamp {
                 let ball = |end: f64| round::density(&Way { o: side.beside_end(way.o, end), ..*way });
                 low * ball(-1.0) + high * ball(1.0) + near * side.density_of_line(way)
             }
+            Form::Torus(ring) => near * ring.density(way),
         };
         of_parts / view.sum
     }
@@ -328,6 +339,7 @@ impl Lamp {
                 None => side.normal(q),
             },
             Form::Capsule(side) => (q - DVec3::new(0.0, 0.0, q.z.clamp(-side.half, side.half))).normalize_or_zero(),
+            Form::Torus(ring) => ring.normal(q),
         }
     }
 
@@ -343,6 +355,10 @@ impl Lamp {
                 let n = round::anywhere(u, v);
                 (n + DVec3::new(0.0, 0.0, side.half.copysign(n.z)), Some(n))
             }
+            (Form::Torus(ring), _) => {
+                let q = ring.point(u, v);
+                (q, Some(ring.normal(q)))
+            }
             (Form::Cone { side, .. } | Form::Capsule(side), _) => {
                 let q = side.point(u, v);
                 (q, Some(side.normal(q)))
@@ -357,7 +373,7 @@ impl Lamp {
     pub fn rarity(&self, normal: DVec3) -> f64 {
         let n = (self.map.transpose() * normal).normalize_or_zero();
         let part = match &self.form {
-            Form::Ball => 0,
+            Form::Ball | Form::Torus(_) => 0,
             Form::Disk(_) => 1,
             Form::Cone { caps: None, .. } => 0,
             Form::Cone { side, caps: Some(_) } => {
@@ -415,6 +431,9 @@ impl UnitShape {
                 1.004 * (0..64).map(of_rim).fold(0.0, f64::max)
             }
             UnitShape::Capsule { half } => area::reach_of_ball(m) + half * m.z_axis.length(),
+            UnitShape::Torus { tube } => {
+                area::reach_of_ball(&DMat3::from_cols(m.x_axis, m.y_axis, DVec3::ZERO)) + tube * area::reach_of_ball(m)
+            }
             UnitShape::Plane => f64::INFINITY,
             UnitShape::Cube | UnitShape::Solid(_) => {
                 let [low, high] = self.bounds(&DAffine3 { matrix3: *m, translation: DVec3::ZERO });

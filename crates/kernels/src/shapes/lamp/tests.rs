@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use tracer_reference::Random;
 use tracer_reference::statistics::{chi_square_tail, sidak};
 
-const FORMS: [UnitShape; 9] = [
+const FORMS: [UnitShape; 12] = [
     UnitShape::Sphere,
     UnitShape::Disk { inner: 0.0 },
     UnitShape::Disk { inner: 0.6 },
@@ -16,6 +16,9 @@ const FORMS: [UnitShape; 9] = [
     UnitShape::Cone { radii: [0.3, 1.0], caps: false, upright: false },
     UnitShape::Capsule { half: 1.5 },
     UnitShape::Cone { radii: [0.5, 1.0], caps: true, upright: false },
+    UnitShape::Torus { tube: 0.4 },
+    UnitShape::Torus { tube: 0.05 },
+    UnitShape::Torus { tube: 1.0 },
 ];
 
 /// Turned; long; flat; squeezed and sheared.
@@ -117,7 +120,7 @@ fn samples_have_their_density() {
                     assert!(whole == 0.0, "{what}: {whole} of nothing");
                     continue;
                 }
-                let open = matches!(unit, UnitShape::Cone { caps: false, .. });
+                let open = matches!(unit, UnitShape::Cone { caps: false, .. } | UnitShape::Torus { .. });
                 assert!(open || none < 40, "{what}: {none} samples are lost");
                 // Three standard errors of the share that is lost, five of the raster, whose points stand for more.
                 let rough = 0.01 + 5.0 * squares.iter().sum::<f64>().sqrt() + if open { 0.025 } else { 0.0 };
@@ -205,6 +208,7 @@ fn starts_have_their_density() {
             UnitShape::Plane | UnitShape::Cube | UnitShape::Solid(_) | UnitShape::Cone { caps: false, .. } => continue,
             UnitShape::Cone { radii: [a, b], .. } => TAU / 3.0 * (a * a + a * b + b * b),
             UnitShape::Capsule { half } => 2.0 * TAU / 3.0 + TAU * half,
+            UnitShape::Torus { tube } => 0.5 * TAU * TAU * tube * tube,
         };
         assert!((normals * mean).length() < 0.01, "{what}: {}", normals * mean);
         let told = volume * mean * lamp.area() / 3.0;

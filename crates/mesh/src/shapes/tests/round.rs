@@ -2,9 +2,7 @@
 
 use super::{Vector, check, dot, made, open_edges, volume};
 use crate::shapes::Triangulated;
-use scene_format::desc::{
-    Arrow, MaterialRef, Name, PathPoints, PerAxis, Placements, Radii, RectBox, Torus, Tube, TubeCurve,
-};
+use scene_format::desc::{Arrow, MaterialRef, Name, PathPoints, PerAxis, Placements, Radii, RectBox, Tube, TubeCurve};
 use scene_format::diagnostic::Span;
 use std::f64::consts::{PI, TAU};
 
@@ -147,66 +145,6 @@ fn tubes_without_a_path_are_told() {
     assert_eq!(of(&[a, b, a], Radii::All(0.1), true), two);
     assert_eq!(of(&[a, b], Radii::All(0.1), true), two);
     assert_eq!(of(&[a, b], Radii::Each(vec![0.1; 3]), false), "E0206: the tube has 2 points and 3 radii");
-}
-
-fn torus(tube_radius: f64, segments: u32) -> Torus {
-    Torus {
-        center: [1.0, 2.0, 3.0].into(),
-        axis: [0.0, 3.0, 4.0].into(),
-        radius: 2.0.into(),
-        tube_radius: tube_radius.into(),
-        segments: segments.into(),
-        material: MaterialRef::Default,
-        transform: Vec::new(),
-        placements: Placements::One,
-        camera_visible: true,
-        name: Name::default(),
-    }
-}
-
-/// Vertices, normals and texture coordinates of a torus about a leaning axis, one that closes its hole, too.
-#[test]
-fn tori() {
-    for tube in [0.5, 2.0] {
-        let mesh = made(&torus(tube, 256));
-        check(&mesh);
-        assert_eq!(open_edges(&mesh), 0, "{tube}");
-        // A polygon of n sides has sin(t)/t of its circle's area, t = 2 pi/n; the section's, turned about by another:
-        // 0.9999 squared.
-        let truth = 2.0 * PI * PI * 2.0 * tube * tube;
-        assert!((volume(&mesh) / truth - 0.9998).abs() < 1e-4, "{}", volume(&mesh) / truth);
-        let (normals, uvs) = (mesh.normal_triangles.as_ref(), mesh.uv_triangles.as_ref());
-        let (normals, uvs) = (normals.expect("there are"), uvs.expect("there are"));
-        for (corners, (normals, uvs)) in mesh.triangles.iter().zip(normals.iter().zip(uvs)) {
-            for k in 0..3 {
-                let p = mesh.positions[corners[k] as usize];
-                // Next to the axis it is cut finer: there vertices lie on the flat pieces.
-                let part = 256.0 * mesh.uvs[uvs[k] as usize][1];
-                if tube == 2.0 && (part - part.round()).abs() > 1e-3 {
-                    continue;
-                }
-                let [x, y, z] = [p[0] - 1.0, p[1] - 2.0, p[2] - 3.0];
-                // Along the axis, and across it: to the right is (0, 1, 0) x axis = +x, the third is right x axis = (0,
-                // -0.8, 0.6).
-                let (up, right, third) = (0.6 * y + 0.8 * z, x, -0.8 * y + 0.6 * z);
-                let out = libm::hypot(right, third);
-                assert!((libm::hypot(out - 2.0, up) - tube).abs() < 1e-9, "{p:?} is off the torus");
-                if out < 1e-9 {
-                    continue;
-                }
-                let n = mesh.normals[normals[k] as usize].map(f64::from);
-                let (n_up, n_out) =
-                    (0.6 * n[1] + 0.8 * n[2], (n[0] * right + (-0.8 * n[1] + 0.6 * n[2]) * third) / out);
-                assert!((n_up - up / tube).abs() < 1e-6 && (n_out - (out - 2.0) / tube).abs() < 1e-6);
-                let [u, v] = mesh.uvs[uvs[k] as usize].map(f64::from);
-                let wraps = |a: f64, b: f64| (a - b - (a - b).round()).abs() < 1e-6;
-                assert!(wraps(u, 0.5 + libm::atan2(right, third) / TAU), "{u}");
-                assert!(wraps(v, 0.5 + libm::atan2(up, out - 2.0) / TAU), "{v}");
-            }
-        }
-    }
-    let fault = torus(2.1, 32).mesh(Span::NONE).expect_err("it is told");
-    assert_eq!(fault.message, "the section of the torus is wider than it: its `tube_radius` is 2.1");
 }
 
 /// Arrows have shaft and head where they are written to be, whichever way they point.

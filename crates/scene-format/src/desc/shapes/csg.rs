@@ -61,7 +61,7 @@ scene_struct! {
     /// Closed shapes put together to one body: there are no walls inside it, also where they touch. Every surface has
     /// the material of the shape that it is of, and its texture coordinates. It cannot shine.
     pub struct Union as "Union", "a union" {
-        /// The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Union`,
+        /// The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Torus`, `Union`,
         /// `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each
         /// other counted. Where surfaces coincide that of the first shows. Solids that have an end may have a `Plane`,
         /// too, which is all of space behind it, as seen from where its normal points.
@@ -178,8 +178,8 @@ impl Faulty for Difference {
     }
 }
 
-const CLOSED: &str =
-    "`Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Plane`, `Union`, `Intersection` or `Difference`";
+const CLOSED: &str = "`Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Torus`, `Plane`, `Union`, \
+                      `Intersection` or `Difference`";
 
 fn no_operand(at: Span, message: String, expected: &str) -> Diagnostic {
     Diagnostic::error(codes::NO_OPERAND, at, message).expected(expected)
@@ -256,7 +256,7 @@ fn unfit(object: &Object) -> Option<(String, &'static str)> {
             let message = "a box with round edges is made of triangles, and cannot be part of a solid";
             (message.to_owned(), "leave `rounding` out, or let it stand beside the solid")
         }
-        Object::Sphere(_) | Object::Box(_) | Object::Capsule(_) | Object::Plane(_) => return None,
+        Object::Sphere(_) | Object::Box(_) | Object::Capsule(_) | Object::Torus(_) | Object::Plane(_) => return None,
         Object::Cylinder(cylinder) if matches!(**cylinder, Cylinder { caps: true, .. }) => return None,
         Object::Cone(cone) if matches!(**cone, Cone { caps: true, .. }) => return None,
         Object::Cylinder(_) => ("an open cylinder has no inside".to_owned(), closed),

@@ -9,8 +9,8 @@ use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
 
 scene_struct! {
-    /// A ring with a round section. It is closed, and made of triangles, shaded as round. Texture coordinates: u goes
-    /// round its axis as a sphere's, v round its section, 1/2 on the outside, where it grows along the axis.
+    /// A ring with a round section, closed. Texture coordinates: u goes round its axis as a sphere's, v round its
+    /// section, 1/2 on the outside, where it grows along the axis.
     pub struct Torus as "Torus", "a torus" {
         /// Its middle.
         center: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -20,8 +20,6 @@ scene_struct! {
         radius: Spanned<f64> => Rule::length("a length");
         /// Radius of the section, at most `radius`.
         tube_radius: Spanned<f64> => Rule::length("a length");
-        /// How many flat pieces go round, and round the section.
-        segments: Spanned<u32> = 128u32 => Rule::within("a whole number", 3.0, 2048.0);
         /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms, applied first to last. Turns and scales without `about` are about its middle.

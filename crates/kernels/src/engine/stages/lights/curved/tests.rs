@@ -31,7 +31,7 @@ fn pdf(table: &LightTable, k: U, at: Receiver<S>, hit: &LightHit<S>) -> S {
     lights::pdf(table, k, at, hit)
 }
 
-/// A ball, a disk with one side, a capsule, a square, a cylinder open at both ends with two sides.
+/// A ball, a disk with one side, a capsule, a square, a cylinder open at both ends with two sides, a torus.
 fn table() -> LightTable {
     let sphere =
         Sphere { center: DVec3::new(3.0, 0.0, 0.0), radius: 0.5, material: NONE, object: 0, light: 0, coordinates: 0 };
@@ -54,6 +54,7 @@ fn table() -> LightTable {
         curved(0, UnitShape::Disk { inner: 0.2 }, false),
         curved(1, UnitShape::Capsule { half: 0.5 }, false),
         curved(2, UnitShape::Cone { radii: [1.0; 2], caps: false, upright: false }, true),
+        curved(3, UnitShape::Torus { tube: 0.4 }, false),
         Light::Parallelogram(square),
     ];
     LightTable::new(&lights, &[sphere], None)
@@ -64,11 +65,11 @@ fn table() -> LightTable {
 #[test]
 fn lanes_have_lights_of_their_own() {
     let table = table();
-    assert!(table.has_curved() && table.has_flat() && table.first_flat == 4);
+    assert!(table.has_curved() && table.has_flat() && table.first_flat == 5);
     let mut random = Random::new(1);
-    let mut lit = [0; 5];
+    let mut lit = [0; 6];
     for _ in 0..8000 {
-        let which: [u32; N] = std::array::from_fn(|_| random.below(5) as u32);
+        let which: [u32; N] = std::array::from_fn(|_| random.below(6) as u32);
         let mut column = |scale: f64| std::array::from_fn::<f32, N, _>(|_| (scale * (random.number() - 0.5)) as f32);
         let (x, y, z) = (column(8.0), column(8.0), column(16.0));
         let (u, v) = (column(1.0).map(|x| x + 0.5), column(1.0).map(|x| x + 0.5));
@@ -93,11 +94,11 @@ fn lanes_have_lights_of_their_own() {
                 continue;
             }
             lit[light] += 1;
-            // Which of several lights: one of five, by a rule of its own.
+            // Which of several lights: one of six, by a rule of its own.
             let (density, inverse) = (density[lane], inverse[lane]);
             let is_one = density > 0.0 && inverse > 0.0 && density * inverse < 1.001;
             assert!(is_one, "light {light}: {density} times {inverse}");
-            assert_eq!(primitives[lane], [0, 1, 2, 3, NONE][light]);
+            assert_eq!(primitives[lane], [0, 1, 2, 3, 4, NONE][light]);
             if light == 1 || light == 3 {
                 assert_eq!(sent[lane], 1.0, "light {light}");
             }
