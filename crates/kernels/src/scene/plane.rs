@@ -26,15 +26,15 @@ const FARTHEST: f64 = 1_073_741_824.0; // 2^30
 impl Plane {
     /// How far a point is off it, along the normal.
     #[inline(always)]
-    pub fn height(&self, p: [f32; 3]) -> f64 {
-        let ([a, b, c], [x, y, z]) = (self.normal, p.map(f64::from));
+    pub fn height(&self, [x, y, z]: [f64; 3]) -> f64 {
+        let [a, b, c] = self.normal;
         a * x + b * y + c * z - self.offset
     }
 
     /// t where a line meets it; not above 0 or no number where it does not ahead.
     #[inline(always)]
-    pub fn meets(&self, origin: [f32; 3], direction: [f32; 3]) -> f64 {
-        let ([a, b, c], [x, y, z]) = (self.normal, direction.map(f64::from));
+    pub fn meets(&self, origin: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
+        let [a, b, c] = self.normal;
         let t = -(self.height(origin) / (a * x + b * y + c * z));
         if t < FARTHEST { t } else { f64::NEG_INFINITY }
     }

@@ -282,8 +282,20 @@ impl Row {
             UnitShape::TORUS => torus::surface(&self.parameters, q),
             _ => sphere::surface(q),
         };
-        OnUnit { q: point + map.inverse() * (on.q - q), n: (map.transpose() * on.n).normalize(), uv: on.uv }
+        let step = match self.kind {
+            UnitShape::DISK | UnitShape::PLANE => (on.q.z - q.z) * last_of_inverse(&map),
+            _ => map.inverse() * (on.q - q),
+        };
+        OnUnit { q: point + step, n: (map.transpose() * on.n).normalize(), uv: on.uv }
     }
+}
+
+/// The last column of the inverse, to the bit as `DMat3::inverse` makes it.
+fn last_of_inverse(m: &DMat3) -> DVec3 {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *m;
+    let last = x.cross(y);
+    let one_over = z.dot(last).recip();
+    DVec3::new(y.x * z.y - z.x * y.y, z.x * x.y - x.x * z.y, last.z) * one_over
 }
 
 /// A flat part of a shape: what of the plane z = `z` of its object space is between two circles about the z axis.
@@ -384,4 +396,20 @@ fn first_end(ray: &ObjectRay, [near, far]: Interval, leaves: bool) -> Option<f64
 /// u around the z axis: 1/2 where -y is, growing towards x.
 fn longitude(q: DVec3) -> f64 {
     0.5 + libm::atan2(q.x, -q.y) / std::f64::consts::TAU
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tracer_reference::Random;
+
+    #[test]
+    fn the_last_column_of_an_inverse_is_that_of_the_inverse() {
+        let mut random = Random::new(1);
+        for _ in 0..1000 {
+            let map = DMat3::from_cols_array(&[(); 9].map(|()| random.between(-3.0, 3.0)));
+            let expected = map.inverse().z_axis;
+            assert_eq!(last_of_inverse(&map).to_array().map(f64::to_bits), expected.to_array().map(f64::to_bits));
+        }
+    }
 }

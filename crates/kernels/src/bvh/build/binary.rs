@@ -83,7 +83,7 @@ const BINS: usize = 16;
 const PARALLEL_BINNING: usize = 1 << 16;
 const PARALLEL_BUILD: usize = 1 << 12;
 /// Splits are by the median where the heuristic's depth and what medians still need would come to more than this.
-const DEEPEST: u32 = 38;
+pub const DEEPEST: u32 = 38;
 /// A split among at most four triangles must gain this part of a leaf test, its share of a node's.
 const SPLIT_COST: f32 = 0.3;
 

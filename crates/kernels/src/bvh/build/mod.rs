@@ -1,11 +1,12 @@
 //! Building an [`Accel`]: one binary tree for each mesh that is placed somewhere, one for everything in the world.
 //!
 //! Triangles of meshes whose positions are in render space already are in the world's tree together, however many
-//! meshes there are, so that overlapping meshes do not overlap as trees.
+//! meshes there are, so that overlapping meshes do not overlap as trees. Nor do those of other kinds ([`interleave`]).
 
 mod binary;
 mod collapse;
 mod contents;
+mod interleave;
 mod parts;
 mod wide;
 
@@ -20,6 +21,7 @@ use super::{Accel, AccelStats, Acceleration};
 use crate::level::Level;
 use binary::{BinaryNode, BinaryTree, Item, Kind, join};
 use contents::{Contents, TriangleList, instance_bounds, object_from_world};
+use interleave::interleave;
 pub use parts::Polygon;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -360,7 +362,8 @@ fn world_tree<'a>(
     world.contents.shapes.first = geometry.first_shape;
     world.contents.shapes.order = shapes.order;
     world.contents.instances.order = instances.order;
-    world.nodes = join(vec![world.nodes, spheres.nodes, shapes.nodes, instances.nodes]);
+    let trees = vec![world.nodes, spheres.nodes, shapes.nodes, instances.nodes];
+    world.nodes = if acceleration == Acceleration::Bvh { interleave(trees) } else { join(trees) };
     Ok(world)
 }
 

@@ -10,33 +10,45 @@ use std::ops::Range;
 const AT_ONCE: usize = 64;
 
 #[inline(always)]
-fn at(columns: &Columns, i: usize) -> [f32; 3] {
-    [columns[0][i], columns[1][i], columns[2][i]]
+fn at(columns: &Columns, i: usize) -> [f64; 3] {
+    [columns[0][i], columns[1][i], columns[2][i]].map(f64::from)
 }
 
 /// Takes those hits of `batch.hits` that a plane is nearer than. Of planes equally far the first wins, by t before it
 /// is rounded: planes that nearly touch do not speckle.
 pub fn planes_closest(planes: &PlaneTable, batch: &mut Batch) {
     let (paths, hits) = (&batch.paths, &mut batch.hits);
+    // Columns of one type and of one length, ids among them, so that the compiler takes several rays at a time.
+    let (mut origin, mut direction, mut from) = ([[0f64; AT_ONCE]; 3], [[0f64; AT_ONCE]; 3], [0f64; AT_ONCE]);
     for first in (0..paths.len).step_by(AT_ONCE) {
-        let count = AT_ONCE.min(paths.len - first);
-        let (mut nearest, mut id) = ([f64::INFINITY; AT_ONCE], [NONE; AT_ONCE]);
+        let range = first..paths.len.min(first + AT_ONCE);
+        for axis in 0..3 {
+            widen(&paths.origin[axis][range.clone()], &mut origin[axis]);
+            widen(&paths.direction[axis][range.clone()], &mut direction[axis]);
+        }
+        widen(&paths.from_primitive[range.clone()], &mut from);
+        let (mut nearest, mut met) = ([f64::INFINITY; AT_ONCE], [f64::from(NONE); AT_ONCE]);
         for plane in &planes.rows {
-            for (k, (nearest, id)) in nearest.iter_mut().zip(&mut id).enumerate().take(count) {
-                let i = first + k;
-                let t = plane.meets(at(&paths.origin, i), at(&paths.direction, i));
-                let nearer = t > 0.0 && t < *nearest && paths.from_primitive[i] != plane.id;
-                *nearest = if nearer { t } else { *nearest };
-                *id = if nearer { plane.id } else { *id };
+            let id = f64::from(plane.id);
+            for k in 0..AT_ONCE {
+                let of = |columns: &[[f64; AT_ONCE]; 3]| [columns[0][k], columns[1][k], columns[2][k]];
+                let t = plane.meets(of(&origin), of(&direction));
+                let nearer = (t > 0.0) & (t < nearest[k]) & (from[k] != id);
+                nearest[k] = if nearer { t } else { nearest[k] };
+                met[k] = if nearer { id } else { met[k] };
             }
         }
-        for (k, (nearest, id)) in nearest.into_iter().zip(id).enumerate().take(count) {
-            let (i, t) = (first + k, nearest as f32);
+        for (i, (nearest, met)) in range.zip(nearest.into_iter().zip(met)) {
+            let (t, id) = (nearest as f32, met as u32);
             if id != NONE && t > 0.0 && t < hits.t[i] {
                 (hits.t[i], hits.primitive[i], hits.instance[i]) = (t, id, NONE);
             }
         }
     }
+}
+
+fn widen<T: Copy + Into<f64>>(column: &[T], wide: &mut [f64; AT_ONCE]) {
+    wide.iter_mut().zip(column).for_each(|(wide, x)| *wide = (*x).into());
 }
 
 /// Sets `batch.shadows.occluded` for the shadow rays that a plane blocks. What lies in a plane is not hidden by it.
