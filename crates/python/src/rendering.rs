@@ -152,7 +152,7 @@ fn faults(desc: &SceneDesc) -> Vec<scene_format::Diagnostic> {
         render: desc.render.clone(),
         effects: desc.effects.clone(),
         background: Background::Color([1.0; 3]),
-        objects: vec![Object::Sphere(Box::new(ball)).into()],
+        objects: vec![Object::from(ball).into()],
         ..SceneDesc::default()
     };
     small.validate().into_iter().filter(|fault| fault.severity == Severity::Error).collect()

@@ -28,7 +28,7 @@
 //! let scene = SceneDesc {
 //!     camera: Camera { fov: 30.0.into(), ..Camera::default() },
 //!     background: Background::Color([0.5, 0.6, 0.8]),
-//!     objects: vec![Object::Sphere(Box::new(ball)).into()],
+//!     objects: vec![Object::from(ball).into()],
 //!     ..SceneDesc::default()
 //! };
 //! for syntax in Syntax::ALL {

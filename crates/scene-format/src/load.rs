@@ -289,7 +289,7 @@ impl SceneDesc {
     ///     let (material, placements) = (Default::default(), Default::default());
     ///     let (transform, name, camera_visible) = (Vec::new(), Default::default(), true);
     ///     let sphere = Sphere { center, radius, material, transform, placements, camera_visible, name };
-    ///     Object::Sphere(Box::new(sphere))
+    ///     Object::from(sphere)
     /// };
     /// scene.objects = vec![ball(1.0).into(), ball(-1.0).into(), ball(f64::NAN).into()];
     /// scene.render.samples = 0.into();

@@ -29,11 +29,6 @@ pub(crate) trait Told {
     const EXAMPLE: &'static str;
 }
 
-impl<T: Told> Told for Box<T> {
-    const ALSO: &'static [&'static str] = T::ALSO;
-    const EXAMPLE: &'static str = T::EXAMPLE;
-}
-
 /// `FieldDef`s from field declarations.
 macro_rules! field_defs {
     ($noun:literal; $( $(#[doc = $doc:literal])+ $field:ident : $ty:ty $(= $default:expr)? $(=> $rule:expr)? ; )*) => {

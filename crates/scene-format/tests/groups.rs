@@ -3,7 +3,7 @@
 mod common;
 
 use common::{errors, load};
-use scene_format::desc::{Amount, Material, MaterialRef, Object, Placements};
+use scene_format::desc::{Amount, Copies, Material, MaterialRef, Object, Placements};
 use scene_format::{Defaults, LoadError, Override, SceneDesc, Syntax, convert, hash_hex, load_str, to_text};
 use std::path::Path;
 
@@ -40,13 +40,13 @@ fn a_group_is_plain_objects_with_the_product_of_all_placements() {
     let wood =
         |k: usize| matches!(scene.objects[k].value.material(), MaterialRef::Named { name, .. } if &**name == "wood");
     assert!(wood(0) && wood(1) && !wood(2) && !wood(4));
-    let Placements::Within(within) = scene.objects[1].value.placements() else { panic!("the leg stands in groups") };
+    let Some(within) = scene.objects[1].value.placements().within() else { panic!("the leg stands in groups") };
     let groups = within.groups.outwards();
     assert_eq!(groups.len(), 2);
-    assert!(matches!(groups[0].placements, Placements::Pattern(_)) && groups[0].transform.is_empty());
+    assert!(matches!(groups[0].placements.copies(), Some(Copies::Pattern(_))) && groups[0].transform.is_empty());
     assert_eq!(groups[1].transform.len(), 1);
     // What stands in the same groups shares them.
-    let Placements::Within(other) = scene.objects[2].value.placements() else { panic!("the ball stands in groups") };
+    let Some(other) = scene.objects[2].value.placements().within() else { panic!("the ball stands in groups") };
     assert!(std::sync::Arc::ptr_eq(&within.groups, &other.groups));
     assert_eq!(scene.objects[4].value.placements(), &Placements::One);
 }

@@ -1,7 +1,7 @@
 //! Files that a scene includes: whose names win, where paths start, what is said of faults, and that nothing goes on
 //! for ever.
 
-use scene_format::desc::{Albedo, Material, MaterialRef, Object, Placements};
+use scene_format::desc::{Albedo, Material, MaterialRef, Object};
 use scene_format::{FileKind, LoadError, Loaded, Override, Syntax, convert, hash_hex, load, load_with};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -138,7 +138,7 @@ fn vars_and_materials_are_given_for_its_own() {
     assert_eq!(albedo(&loaded, 2), Albedo::Color([0.9; 3].into()));
     assert_eq!(loaded.scene.objects[0].value.placements().known_copies(), 4);
     assert!(matches!(&loaded.scene.objects[8].value, Object::Box(seat) if seat.center.value == [0.0, 1.0, 0.0]));
-    assert!(matches!(loaded.scene.objects[8].value.placements(), Placements::Within(_)));
+    assert!(loaded.scene.objects[8].value.placements().within().is_some());
     // Of equal materials there is one, whatever the number of chairs.
     let names: Vec<&str> = loaded.scene.materials.iter().map(|named| &*named.name.value).collect();
     let chair = Path::new("scenes/chair.ron").display().to_string();

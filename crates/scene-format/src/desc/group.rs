@@ -1,12 +1,12 @@
 //! Groups: objects and lights that are moved and copied as one.
 //!
 //! A description knows no groups: what stands in one is read as plain objects that remember where their groups put them
-//! ([`Placements::Within`]), so that nobody after the reader has to walk a tree, and a mesh in a group of a thousand
+//! ([`Within`]), so that nobody after the reader has to walk a tree, and a mesh in a group of a thousand
 //! copies is a mesh with a thousand copies. Lights of a group are spheres that shine to both sides, which is the same.
 
 use super::{
-    Amount, Emissive, Groups, IncludeWords, Light, Material, MaterialRef, Moved, Name, Object, Placements, Sphere,
-    Transform, Within,
+    Amount, Copies, Emissive, Groups, IncludeWords, Light, Material, MaterialRef, Moved, Name, Object, Placements,
+    Sphere, Transform, Within,
 };
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Span, Spanned};
@@ -97,10 +97,8 @@ impl Words for Objects {
         let mut rest = self.0.as_slice();
         while let Some(first) = rest.first() {
             // What stands in the same groups is written in the same groups.
-            let of = |object: &Spanned<Object>| match object.value.placements() {
-                Placements::Within(within) => Some(Arc::clone(&within.groups)),
-                _ => None,
-            };
+            let of =
+                |object: &Spanned<Object>| object.value.placements().within().map(|within| Arc::clone(&within.groups));
             let groups = of(first);
             let same = |other: &&Spanned<Object>| match (&groups, of(other)) {
                 (Some(groups), Some(others)) => Arc::ptr_eq(groups, &others),
@@ -198,8 +196,11 @@ pub(crate) fn moved(
     for object in objects {
         let placements = object.value.placements_mut();
         let (own, inner) = match std::mem::take(placements) {
-            Placements::Within(within) => (within.own, Some(within.groups)),
-            own => (own, None),
+            Placements::Many(copies) => match *copies {
+                Copies::Within(within) => (within.own, Some(within.groups)),
+                own => (own.into(), None),
+            },
+            Placements::One => (Placements::One, None),
         };
         let same = last.as_ref().filter(|last| match (&last.inner, &inner) {
             (None, None) => true,
@@ -211,7 +212,7 @@ pub(crate) fn moved(
             None => Arc::new(Groups { inner, group: Arc::clone(&group) }),
         };
         last = Some(Arc::clone(&groups));
-        *placements = Placements::Within(Box::new(Within { own, groups }));
+        *placements = Within { own, groups }.into();
     }
     true
 }
@@ -241,5 +242,5 @@ pub(crate) fn of_light(light: Spanned<Light>) -> Spanned<Object> {
         camera_visible: light.camera_visible,
         name: light.name,
     };
-    Spanned { value: Object::Sphere(Box::new(sphere)), span }
+    Spanned { value: Object::from(sphere), span }
 }

@@ -63,10 +63,10 @@ pub(crate) use object::{ShapeWords, no_length};
 pub use output::{Layer, Mark, MaskName, Matte, Output};
 pub use per_axis::PerAxis;
 pub use shapes::{
-    Arrow, Capsule, Cone, Corners, Curve, Cylinder, Difference, Disk, Extrude, Faces, Groups, HeightField, InlineMesh,
-    Instances, Intersection, Lathe, Mesh, MeshSource, Moved, Operands, Outline, Part, PathPoints, PlacementList,
-    PlacementPattern, Placements, Plane, Polygon, Profile, Radii, RectBox, Rectangle, Shading, Sphere, Torus, Tube,
-    TubeCurve, Turning, Union, Within, no_extent,
+    Arrow, Capsule, Cone, Copies, Corners, Curve, Cylinder, Difference, Disk, Extrude, Faces, Groups, HeightField,
+    InlineMesh, Instances, Intersection, Lathe, Mesh, MeshSource, Moved, Operands, Outline, Part, PathPoints,
+    PlacementList, PlacementPattern, Placements, Plane, Polygon, Profile, Radii, RectBox, Rectangle, Shading, Sphere,
+    Torus, Tube, TubeCurve, Turning, Union, Within, no_extent,
 };
 pub(crate) use stereo::Stereoscopy;
 pub use stereo::{Stereo, StereoLayout};
@@ -209,11 +209,13 @@ mod tests {
     use super::*;
     use crate::diagnostic::Spanned;
 
-    /// A scene may have millions of these; `tests/memory.rs` says why they must be small. In a box of its own a mesh
-    /// would take more than ten times its text.
+    /// A scene may have millions of these; `tests/memory.rs` says why they must be small. Of a mesh more than 120 bytes
+    /// would be more than ten times its text.
     #[test]
     fn what_scenes_have_many_of_is_small() {
-        assert_eq!(size_of::<Spanned<Object>>(), 144);
+        assert_eq!(size_of::<Spanned<Object>>(), 32);
+        assert_eq!(size_of::<Mesh>(), 120);
+        assert_eq!(size_of::<Placements>(), 8);
         assert_eq!(size_of::<NamedMaterial>(), 88);
         assert_eq!(size_of::<Spanned<Transform>>(), 64);
     }

@@ -21,12 +21,6 @@ pub trait Faulty {
     }
 }
 
-impl<T: Faulty> Faulty for Box<T> {
-    fn faults(&self, span: Span) -> Vec<Diagnostic> {
-        T::faults(self, span)
-    }
-}
-
 /// What is asked of a shape's words.
 pub(crate) trait ShapeWords: Told + Faulty {
     /// What several of them are called where they are counted.
@@ -40,18 +34,6 @@ pub(crate) trait ShapeWords: Told + Faulty {
     /// Whether it reaches without end.
     fn is_endless(&self) -> bool {
         false
-    }
-}
-
-impl<T: ShapeWords> ShapeWords for Box<T> {
-    const MANY: &'static str = T::MANY;
-
-    fn named_file(&self) -> Option<&Spanned<Arc<Path>>> {
-        T::named_file(self)
-    }
-
-    fn is_endless(&self) -> bool {
-        T::is_endless(self)
     }
 }
 
@@ -81,13 +63,22 @@ pub fn solid_cannot_shine(what: &str, at: Span) -> Diagnostic {
 
 /// The choice between shapes, one line each, and what is the same for all of them.
 macro_rules! shapes {
-    ($( $(#[doc = $doc:literal])+ $Kind:ident($inner:ty); )+) => {
+    ($( $(#[doc = $doc:literal])+ $Kind:ident(Box<$inner:ident>); )+) => {
+        // Each in a box: a scene may have millions, and the largest would say how much room all of them take.
         scene_enum! {
             /// A thing in the scene.
             pub enum Object, "object" {
-                $( $(#[doc = $doc])+ $Kind($inner); )+
+                $( $(#[doc = $doc])+ $Kind(Box<$inner>); )+
             }
         }
+
+        $(
+            impl From<$inner> for Object {
+                fn from(shape: $inner) -> Self {
+                    Object::$Kind(Box::new(shape))
+                }
+            }
+        )+
 
         impl Object {
             /// By kind: names of other programs, an example.
@@ -149,17 +140,17 @@ macro_rules! shapes {
 
             /// What is wrong with its numbers: [`Faulty::faults`].
             pub fn faults(&self, span: Span) -> Vec<Diagnostic> {
-                match self { $( Object::$Kind(shape) => Faulty::faults(shape, span), )+ }
+                match self { $( Object::$Kind(shape) => shape.faults(span), )+ }
             }
 
             /// Whether it reaches without end: a plane does.
             pub fn is_endless(&self) -> bool {
-                match self { $( Object::$Kind(shape) => ShapeWords::is_endless(shape), )+ }
+                match self { $( Object::$Kind(shape) => shape.is_endless(), )+ }
             }
 
             /// The file that its shape is made of, if it is.
             pub fn file(&self) -> Option<&Spanned<Arc<Path>>> {
-                match self { $( Object::$Kind(shape) => ShapeWords::named_file(shape), )+ }
+                match self { $( Object::$Kind(shape) => shape.named_file(), )+ }
             }
         }
     };
@@ -197,7 +188,7 @@ shapes! {
     /// A flat face with any number of corners.
     Polygon(Box<Polygon>);
     /// A triangle mesh from a file.
-    Mesh(Mesh);
+    Mesh(Box<Mesh>);
     /// Closed shapes put together to one body.
     Union(Box<Union>);
     /// What closed shapes have in common: of two balls a lens.

@@ -190,17 +190,17 @@ impl Parser<'_, '_> {
     }
 
     /// The result of an operator at `at`, which must be there and finite.
-    fn result(&self, at: Range<usize>, what: &str, value: Option<Value>, of: &[&Value]) -> Result<Value, Failure> {
+    fn result(&self, at: Range<usize>, sign: &str, value: Option<Value>, of: &[&Value]) -> Result<Value, Failure> {
         let Some(value) = value else {
             let nouns: Vec<&str> = of.iter().map(|value| value.noun()).collect();
-            let message = format!("{what} does not go with {}", suggest::join(&nouns, "and"));
+            let message = format!("`{sign}` does not go with {}", suggest::join(&nouns, "and"));
             let fault = self.fault(codes::EXPRESSION_TYPE, at, &message, "numbers, or vectors of one length");
             return self.unless_idle(fault);
         };
         if value.is_finite() {
             return Ok(value);
         }
-        let message = format!("{what} gives no finite number");
+        let message = format!("`{sign}` gives no finite number");
         self.unless_idle(self.fault(codes::EXPRESSION_NOT_FINITE, at, &message, "a finite number"))
     }
 
@@ -263,7 +263,7 @@ impl Parser<'_, '_> {
         match sign {
             "==" if !lists => Ok(Value::Bool(a == b)),
             "!=" if !lists => Ok(Value::Bool(a != b)),
-            _ => self.result(at, &format!("`{sign}`"), None, &[&a, &b]),
+            _ => self.result(at, sign, None, &[&a, &b]),
         }
     }
 
@@ -273,7 +273,7 @@ impl Parser<'_, '_> {
             let at = self.at - 1..self.at;
             let other = self.term()?;
             let sum = value.zip(&other, if sign == "+" { |a, b| a + b } else { |a, b| a - b });
-            value = self.result(at, &format!("`{sign}`"), sum, &[&value, &other])?;
+            value = self.result(at, sign, sum, &[&value, &other])?;
         }
         Ok(value)
     }
@@ -292,7 +292,7 @@ impl Parser<'_, '_> {
                     _ => |a: f64, b: f64| a - b * (a / b).floor(),
                 },
             );
-            value = self.result(at, &format!("`{sign}`"), product, &[&value, &other])?;
+            value = self.result(at, sign, product, &[&value, &other])?;
         }
         Ok(value)
     }
@@ -306,7 +306,7 @@ impl Parser<'_, '_> {
             ("!", _) => None,
             _ => value.map(|x| -x),
         };
-        self.result(at, &format!("`{sign}`"), result, &[&value])
+        self.result(at, sign, result, &[&value])
     }
 
     fn power(&mut self) -> Result<Value, Failure> {
@@ -320,7 +320,7 @@ impl Parser<'_, '_> {
         }
         let at = self.at - 1..self.at;
         let other = self.deeper(Self::unary)?;
-        self.result(at, "`^`", value.zip(&other, libm::pow), &[&value, &other])
+        self.result(at, "^", value.zip(&other, libm::pow), &[&value, &other])
     }
 
     fn postfix(&mut self) -> Result<Value, Failure> {

@@ -152,8 +152,8 @@ fn grouped(random: &mut Random, objects: &mut [Spanned<Object>]) {
     let group = |random: &mut Random| {
         let placements = match random.below(3) {
             0 => Placements::One,
-            1 => Placements::File(Box::new(PathBuf::from(text(random)).into())),
-            _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| moves(random)).collect())),
+            1 => Placements::from(PathBuf::from(text(random))),
+            _ => (0..1 + random.below(3)).map(|_| moves(random)).collect(),
         };
         Arc::new(Moved { transform: moves(random), placements })
     };
@@ -167,7 +167,7 @@ fn grouped(random: &mut Random, objects: &mut [Spanned<Object>]) {
         }
         let placements = object.value.placements_mut();
         let own = std::mem::take(placements);
-        *placements = Placements::Within(Box::new(Within { own, groups: Arc::clone(&groups) }));
+        *placements = Placements::from(Within { own, groups: Arc::clone(&groups) });
     }
 }
 
@@ -241,9 +241,9 @@ pub fn scene(random: &mut Random) -> SceneDesc {
         let material = material_ref(random);
         let placements = match random.below(4) {
             0 => Placements::One,
-            1 => Placements::File(Box::new(PathBuf::from(text(random)).into())),
-            2 => Placements::Pattern(Box::new(pattern(random).into())),
-            _ => Placements::List(Box::new((0..1 + random.below(3)).map(|_| transforms(random)).collect())),
+            1 => Placements::from(PathBuf::from(text(random))),
+            2 => Placements::from(Spanned::from(pattern(random))),
+            _ => (0..1 + random.below(3)).map(|_| transforms(random)).collect(),
         };
         let pair = |random: &mut Random| [number(random, -1e6, 1e6), number(random, -1e6, 1e6)];
         let mut object = match random.below(17) {
@@ -423,7 +423,7 @@ pub fn scene(random: &mut Random) -> SceneDesc {
             })),
             _ => {
                 let of_file = random.below(2) == 0;
-                Object::Mesh(Mesh {
+                Object::from(Mesh {
                     source: match of_file {
                         true => MeshSource::File(PathBuf::from(text(random)).into()),
                         false => inline_mesh(random),

@@ -137,8 +137,10 @@ pub struct Built {
     pub meshes: Vec<Mesh>,
     /// All triangles.
     pub triangles: Triangles,
-    /// Copies.
-    pub instances: Vec<Instance>,
+    /// Copies: of which mesh, and where. The tree is built of them.
+    pub copies: Vec<bvh::InstanceGeometry>,
+    /// Per copy its material, or [`NONE`] for those of its triangles, and its object.
+    pub of_copies: Vec<[u32; 2]>,
     /// Per copy which of the coordinates that [`build`] was given it is written in; empty where nobody asks.
     pub coordinates: Vec<u32>,
     /// Objects whose materials by their files would shine, but whose copies share their triangles.
@@ -219,6 +221,7 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
         }
     }
     let mut built = Built::default();
+    built.reserve(copies.values().sum());
     // Meshes that are shared: where each is, and how it is put back into the frame of its file.
     let mut shared: BTreeMap<Variant, (u32, DAffine3)> = BTreeMap::new();
     let scaled = DAffine3::from_scale(DVec3::splat(frame.scale));
@@ -246,7 +249,7 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
             for (copy, world) in worlds.enumerate() {
                 built.vertices_of.push((variant.file, built.triangles.positions.len() as u32));
                 let mesh = built.add_mesh(data, variant.smooth, &world, frame.scale, whole, own_materials);
-                built.instances.push(Instance { mesh, material: whole, object: polygonal.number, placement: None });
+                built.add_copy(bvh::InstanceGeometry { mesh, placement: None }, whole, polygonal.number);
                 if shines {
                     let quads = matches!(polygonal.geometry, Geometry::Unit(_));
                     let mirrored = world.matrix3.determinant() < 0.0;
@@ -256,7 +259,7 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
             continue;
         }
         let (mesh, file_from_object) = *shared.entry(variant).or_insert_with(|| {
-            let [low, high] = placed.boxes[object];
+            let [low, high] = placed.box_of(object);
             let centre = (low + high) * 0.5;
             let size = (high - low).max_element();
             let exponent = if size > 0.0 { libm::ilogb(size) } else { 0 };
@@ -266,12 +269,10 @@ pub fn build(frame: &Frame, parts: &Parts<'_>, mut written: Option<&mut Vec<DAff
             let mesh = built.add_mesh(data, variant.smooth, &to_object, scale, NONE, own_materials);
             (mesh, DAffine3 { translation: centre, ..DAffine3::from_scale(DVec3::splat(1.0 / scale)) })
         });
-        built.instances.extend(worlds.map(|world| Instance {
-            mesh,
-            material: whole,
-            object: polygonal.number,
-            placement: Some(rows(&(scaled * world * file_from_object))),
-        }));
+        for world in worlds {
+            let placement = Some(rows(&(scaled * world * file_from_object)));
+            built.add_copy(bvh::InstanceGeometry { mesh, placement }, whole, polygonal.number);
+        }
     }
     if !built.triangles.light.is_empty() {
         // What lies beyond the end of a column reads its last entry.
@@ -289,6 +290,26 @@ fn rows(map: &DAffine3) -> [[f32; 4]; 3] {
 }
 
 impl Built {
+    /// Makes room for so many copies: of millions a list that grows is in memory one and a half times too often.
+    fn reserve(&mut self, copies: usize) {
+        self.copies.reserve_exact(copies);
+        self.of_copies.reserve_exact(copies);
+    }
+
+    fn add_copy(&mut self, copy: bvh::InstanceGeometry, material: u32, object: u32) {
+        self.copies.push(copy);
+        self.of_copies.push([material, object]);
+    }
+
+    /// The copies as they are rendered. Trees are built before they are made: nothing takes more memory than that.
+    pub fn instances(&self) -> Vec<Instance> {
+        let instance = |(copy, &[material, object]): (&bvh::InstanceGeometry, &[u32; 2])| {
+            let &bvh::InstanceGeometry { mesh, placement } = copy;
+            Instance { mesh, material, object, placement }
+        };
+        self.copies.iter().zip(&self.of_copies).map(instance).collect()
+    }
+
     /// The tree over these meshes, the first `spheres`, and the shapes, whose first has the id `first_shape`; planes
     /// are the last of them. What is left out keeps its numbers.
     #[allow(clippy::too_many_arguments)]
@@ -313,12 +334,10 @@ impl Built {
                 first_primitive: first_primitive + m.first_triangle,
             })
             .collect();
-        let instances: Vec<bvh::InstanceGeometry> =
-            self.instances.iter().map(|i| bvh::InstanceGeometry { mesh: i.mesh, placement: i.placement }).collect();
         let (bounded, endless) = shapes.split_at(shapes.partition_point(|shape| !shape.unit.is_endless()));
         let placed: Vec<bvh::ShapeGeometry> = bounded.iter().map(Shape::geometry).collect();
         let planes: Vec<Row> = endless.iter().map(|shape| Row::new(&shape.unit, &shape.placement)).collect();
-        let (meshes, instances) = (&meshes[..], &instances[..]);
+        let (meshes, instances) = (&meshes[..], &self.copies[..]);
         let (parts, planes) = (&solids.parts[..], &planes[..]);
         let shapes_placed = &placed[..];
         let geometry =
@@ -349,14 +368,14 @@ impl Built {
         let shines = |triangle: usize| t.light.get(triangle).is_some_and(|&light| light != NONE);
         let of_triangle = |(triangle, &material)| if shines(triangle) { 0 } else { of_material(material) };
         let of_shape = |shape: &Shape| if shape.light == NONE { of_material(shape.material) } else { 0 };
-        let of_instance = |instance: &Instance| (instance.material != NONE).then(|| of_material(instance.material));
+        let of_copy = |&[material, _]: &[u32; 2]| (material != NONE).then_some(material);
         bvh::Ranks {
             triangles: t.material.iter().enumerate().map(of_triangle).collect(),
-            instances: self.instances.iter().map(of_instance).collect(),
+            instances: self.of_copies.iter().map(|of| of_copy(of).map(of_material)).collect(),
             shapes: shapes.iter().map(of_shape).collect(),
             materials: (0..materials.len() as u32).any(|k| of_material(k) == bvh::TRANSMITS).then(|| bvh::Materials {
                 triangles: t.material.clone(),
-                instances: self.instances.iter().map(|i| (i.material != NONE).then_some(i.material)).collect(),
+                instances: self.of_copies.iter().map(of_copy).collect(),
                 shapes: shapes.iter().map(|shape| shape.material).collect(),
             }),
         }

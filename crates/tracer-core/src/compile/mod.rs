@@ -270,11 +270,10 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     let sphere_table = SphereTable::new(&spheres, material_table.emitter);
     let plane_table = PlaneTable::new(&shapes, spheres.len() as u32);
     let light_table = LightTable::new(&lights, &spheres, environment.map(Arc::new));
-    let instance_table = InstanceTable::new(&built.instances);
     let written = written.map_or_else(Written::default, |maps| {
         Written::new(maps, &spheres, &shapes, &built.coordinates, &solids.operands)
     });
-    let first_body = (spheres.len() + shapes.len() + built.instances.len()) as u32;
+    let first_body = (spheres.len() + shapes.len() + built.copies.len()) as u32;
     let pattern_table = PatternTable::new(patterns, programs, &frame, written);
     let tables_seconds = start.elapsed().as_secs_f64();
 
@@ -300,6 +299,10 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     };
     let hierarchy = hierarchy.as_deref();
     let tree = start.elapsed().as_secs_f64();
+    // Only now: nothing else takes as much as a tree that is being built.
+    let instances = built.instances();
+    drop((built.copies, built.of_copies));
+    let instance_table = InstanceTable::new(&instances);
     let pictures =
         images.iter().map(|image| Picture { width: image.width, height: image.height, texels: &image.texels });
     let mut rendered = tracer_kernels::scene::Scene {
@@ -341,7 +344,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
         lights,
         meshes: built.meshes.into(),
         triangles: built.triangles.into(),
-        instances: built.instances.into(),
+        instances: instances.into(),
         accel,
         camera_sees,
         top_boxes: hierarchy.map(|accel| *accel.top_boxes()),

@@ -12,29 +12,30 @@ use tracer_mesh::MeshData;
 pub struct Placed {
     /// Per object: from the frame of its triangles to the world, one per copy.
     pub maps: Vec<Maps>,
-    /// Per object: the corners of its box in the frame of its triangles.
-    pub boxes: Vec<[DVec3; 2]>,
+    /// The corners of the boxes of the files that there are, in the frame of their triangles.
+    boxes: Vec<[DVec3; 2]>,
+    /// Per object: its file, where it could be loaded.
+    file_of_object: Vec<Option<u32>>,
 }
 
 /// Evaluates transforms and placements.
 pub fn place(given: Given<'_>, loaded: &Loaded, diagnostics: &mut Diagnostics) -> Placed {
-    let mut placed = Placed { maps: Vec::new(), boxes: Vec::new() };
+    let boxes: Vec<[DVec3; 2]> = loaded.files.iter().map(|data| corners(data)).collect();
+    let file_of_object = loaded.file_of_object.iter().map(|file| file.map(|file| file as u32)).collect();
+    let mut placed = Placed { maps: Vec::with_capacity(loaded.file_of_object.len()), boxes, file_of_object };
     for (object, file) in polygonal(given.desc).zip(&loaded.file_of_object) {
         let mut place =
             |subject: &Subject<'_>| place_all(given, object.transform, object.placements, subject, diagnostics);
-        let Some(data) = file.map(|f| &loaded.files[f]) else {
+        let Some(file) = *file else {
             // A placements file is read even when the mesh is missing: all faults in one run.
             place(&Subject::unknown(object.noun));
             placed.maps.push(Maps::new());
-            placed.boxes.push([DVec3::ZERO; 2]);
             continue;
         };
-        let corners = corners(data);
-        let maps = with_subject(&object, data, corners, place);
+        let maps = with_subject(&object, &loaded.files[file], placed.boxes[file], place);
         let at = object.transform.first().map_or(object.span, |t| t.span);
         check(&maps, at, object.noun, diagnostics);
         placed.maps.push(maps);
-        placed.boxes.push(corners);
     }
     placed
 }
@@ -75,7 +76,8 @@ impl Placed {
 
     /// The corners of its box, in the frame of its triangles.
     pub fn box_of(&self, object: usize) -> [DVec3; 2] {
-        self.boxes.get(object).copied().unwrap_or_default()
+        let file = self.file_of_object.get(object).copied().flatten();
+        file.map_or([DVec3::ZERO; 2], |file| self.boxes[file as usize])
     }
 
     /// A point of the box of each copy, the nearest to `look_at`; of many copies every so many, 1024 at most per
@@ -86,8 +88,8 @@ impl Placed {
 
     /// Those of one object.
     pub fn marks_of(&self, object: usize, look_at: DVec3) -> impl Iterator<Item = DVec3> {
-        let all = self.maps.get(object).zip(self.boxes.get(object));
-        all.into_iter().flat_map(move |(maps, corners)| {
+        let corners = self.box_of(object);
+        self.maps.get(object).into_iter().flat_map(move |maps| {
             maps.iter().step_by(maps.len().div_ceil(1024).max(1)).map(move |map| {
                 let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
                 for k in 0..8usize {

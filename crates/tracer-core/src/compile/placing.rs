@@ -4,7 +4,7 @@ use super::assets::Sources;
 use super::patterns;
 use super::settled::Settled;
 use glam::{DAffine3, DMat3, DVec3};
-use scene_format::desc::{Extent, Moved, Object, Placements, Transform};
+use scene_format::desc::{Copies, Extent, Moved, Object, Placements, Transform};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use smallvec::SmallVec;
@@ -66,7 +66,10 @@ pub fn place_all(
     }
     let copies = subject.under(&map, |moved| copies(given, placements, None, moved, diagnostics));
     let map = map * subject.local;
-    Maps::from_vec(copies.into_iter().map(|copy| copy * map).collect())
+    let mut maps: Vec<DAffine3> = copies.into_iter().map(|copy| copy * map).collect();
+    // A list of one that has room for more would not be kept without memory of its own.
+    maps.shrink_to_fit();
+    Maps::from_vec(maps)
 }
 
 /// From where an object of a group is written to the group, before that moves it, one map for each of its copies there.
@@ -196,18 +199,18 @@ pub fn copies(
     subject: &Subject<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Vec<DAffine3> {
-    match placements {
-        Placements::One => vec![DAffine3::IDENTITY],
-        Placements::List(list) => list.iter().map(|steps| place(steps, subject, diagnostics)).collect(),
-        Placements::File(file) => match given.sources.placements(&given.desc.base_dir.join(&file.value)) {
+    match placements.copies() {
+        None => vec![DAffine3::IDENTITY],
+        Some(Copies::List(list)) => list.iter().map(|steps| place(steps, subject, diagnostics)).collect(),
+        Some(Copies::File(file)) => match given.sources.placements(&given.desc.base_dir.join(&file.value)) {
             Ok(maps) => maps,
             Err(error) => {
                 diagnostics.push(error.to_diagnostic(file.span));
                 Vec::new()
             }
         },
-        Placements::Pattern(pattern) => patterns::maps(pattern, diagnostics),
-        Placements::Within(within) => {
+        Some(Copies::Pattern(pattern)) => patterns::maps(pattern, diagnostics),
+        Some(Copies::Within(within)) => {
             let mut maps = copies(given, &within.own, None, subject, diagnostics);
             let mut found = Diagnostics::new();
             let inner = |outer: &&Moved| group.is_none_or(|group| !std::ptr::eq(*outer, group));
@@ -490,7 +493,7 @@ mod tests {
             vec![Transform::FitTo { extent: Extent::Height, length: 8.0, about: None }],
         ];
         let list = steps.into_iter().map(|steps| steps.into_iter().map(Spanned::from).collect::<Vec<_>>());
-        let placements = Placements::List(Box::new(list.collect()));
+        let placements = list.collect();
         let own = [Transform::Scale { factor: [1.0, 2.0, 1.0], about: None }].map(Spanned::from);
         let subject = Subject { noun: "cube", local: DAffine3::IDENTITY, middle: Some(DVec3::ZERO), reach: &cube };
         let desc = scene_format::load_str(

@@ -9,7 +9,7 @@ use super::placed::{self, corners};
 use super::placing::{Given, Subject, copies, place, place_in};
 use super::polygonal::{Polygonal, polygonal};
 use glam::{DAffine3, DVec3};
-use scene_format::desc::{Moved, Placements, endless_group};
+use scene_format::desc::{Moved, endless_group};
 use scene_format::{Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
 use tracer_mesh::MeshData;
@@ -96,7 +96,7 @@ fn asking(desc: &SceneDesc) -> Vec<Asking<'_>> {
     let mut all: Vec<Asking<'_>> = Vec::new();
     let mut known: BTreeMap<usize, usize> = BTreeMap::new();
     for (number, object) in desc.objects.iter().enumerate() {
-        let Placements::Within(within) = object.value.placements() else { continue };
+        let Some(within) = object.value.placements().within() else { continue };
         for (depth, group) in within.groups.outwards().into_iter().rev().enumerate() {
             if group.asks_for_reach().is_some() {
                 let index = *known.entry(key(group)).or_insert_with(|| {

@@ -41,9 +41,12 @@ pub struct Made<'a> {
     pub solids: &'a [SolidObject],
 }
 
-/// What one can be in.
+/// What one can be in. There may be a million, so they are small: [`UnitBody`] is made of one as it is looked at.
 enum Body<'a> {
-    Unit(UnitBody),
+    /// A closed unit shape, with the map of a copy.
+    Unit(&'a shapes::UnitShape, &'a DAffine3),
+    /// In a copy of a solid.
+    Hollow(Box<UnitBody>),
     /// With its place among the meshes, so that all copies have one, and its map.
     Mesh(usize, &'a DAffine3),
     /// With the map of a copy.
@@ -76,20 +79,22 @@ pub fn warn(desc: &SceneDesc, made: &Made<'_>, diagnostics: &mut Diagnostics) {
     let eye = eye(desc);
     let mut left = MOST_TRIANGLES;
     let few = found.bodies.len().saturating_mul(found.lamps.len()) <= MOST_PAIRS;
-    let mut side = |body: &Body<'_>, extent: &Extent| match body {
-        Body::Unit(body) => body.side(extent),
-        Body::Mesh(mesh, map) => found.meshes[*mesh].side(map, extent, &mut left),
-        Body::Solid(solid, map) => solid.side(map, extent),
-    };
     let mut told = BTreeSet::new();
     let mut is_shut_in = false;
     for (body, index) in &found.bodies {
+        let of_unit = if let Body::Unit(unit, map) = body { UnitBody::of(unit, map) } else { None };
+        let mut side = |extent: &Extent| match body {
+            Body::Unit(..) => of_unit.as_ref().map_or(Side::Unknown, |convex| convex.side(extent)),
+            Body::Hollow(convex) => convex.side(extent),
+            Body::Mesh(mesh, map) => found.meshes[*mesh].side(map, extent, &mut left),
+            Body::Solid(solid, map) => solid.side(map, extent),
+        };
         let of_object = desc.objects[*index].span;
-        match side(body, &eye) {
+        match side(&eye) {
             Side::In
                 if !is_shut_in
                     && !found.has_more_lamps
-                    && found.lamps.iter().all(|lamp| side(body, &lamp.extent) == Side::Out) =>
+                    && found.lamps.iter().all(|lamp| side(&lamp.extent) == Side::Out) =>
             {
                 is_shut_in = true;
                 diagnostics.push(
@@ -103,7 +108,7 @@ pub fn warn(desc: &SceneDesc, made: &Made<'_>, diagnostics: &mut Diagnostics) {
                 );
             }
             Side::Out if few => {
-                let shut_in = found.lamps.iter().filter(|lamp| side(body, &lamp.extent) == Side::In);
+                let shut_in = found.lamps.iter().filter(|lamp| side(&lamp.extent) == Side::In);
                 let shut_in: Vec<&Lamp> = shut_in.filter(|lamp| told.insert(&lamp.name)).collect();
                 diagnostics.extend(light_shut_in(&shut_in, *index, of_object));
             }
@@ -163,15 +168,18 @@ fn find<'a>(desc: &'a SceneDesc, made: &Made<'a>) -> Found<'a> {
             if shines {
                 found.has_more_lamps |= curved.maps.len() > MOST_COPIES;
                 found.lamps.extend(maps.map(|map| lamp(Extent::of_unit(&curved.unit, map))));
-            } else if opaque && curved.unit != shapes::UnitShape::Plane {
-                let bodies = maps.filter_map(|map| UnitBody::of(&curved.unit, map));
-                found.bodies.extend(bodies.map(|body| (Body::Unit(body), index)));
+            } else if opaque
+                && curved.unit != shapes::UnitShape::Plane
+                && UnitBody::of(&curved.unit, &DAffine3::IDENTITY).is_some()
+            {
+                found.bodies.extend(maps.map(|map| (Body::Unit(&curved.unit, map), index)));
             }
         } else if let Some(solid) = solids.next_if(|solid| solid.number() == number) {
             let maps = solid.maps().iter().take(MOST_COPIES).filter(|_| opaque);
             for map in maps {
                 found.bodies.push((Body::Solid(solid, map), index));
-                found.bodies.extend(solid.hollows(map).into_iter().map(|hollow| (Body::Unit(hollow), index)));
+                let hollows = solid.hollows(map).into_iter();
+                found.bodies.extend(hollows.map(|hollow| (Body::Hollow(Box::new(hollow)), index)));
             }
         } else if let Some((k, polygonal)) = flat.next_if(|(_, flat)| flat.number == number) {
             let Some(data) = made.loaded.file(k) else { continue };
@@ -207,8 +215,7 @@ impl<'a> Found<'a> {
         match object.geometry {
             Geometry::Unit(UnitShape::Square) | Geometry::Heights(_) => {}
             Geometry::Unit(UnitShape::Cube) => {
-                let bodies = maps.filter_map(|map| UnitBody::of(&shapes::UnitShape::Cube, map));
-                self.bodies.extend(bodies.map(|body| (Body::Unit(body), index)));
+                self.bodies.extend(maps.map(|map| (Body::Unit(&shapes::UnitShape::Cube, map), index)));
             }
             Geometry::File(_) | Geometry::Inline(_) | Geometry::Made(_) => {
                 let mesh = self.meshes.len();

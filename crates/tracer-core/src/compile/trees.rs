@@ -38,7 +38,7 @@ impl Hung<'_> {
         let is_hidden = |object: u32| LeftOut::holds(hidden, object as usize);
         let spheres: Vec<bool> = self.spheres[..self.in_tree].iter().map(|sphere| is_hidden(sphere.object)).collect();
         let shapes: Vec<bool> = self.shapes.iter().map(|shape| is_hidden(shape.object)).collect();
-        let instances: Vec<bool> = self.built.instances.iter().map(|of| is_hidden(of.object)).collect();
+        let instances: Vec<bool> = self.built.of_copies.iter().map(|&[_, object]| is_hidden(object)).collect();
         let bounded = shapes.iter().zip(self.shapes).filter(|(_, shape)| !shape.unit.is_endless());
         if spheres.iter().chain(&instances).chain(bounded.map(|(hidden, _)| hidden)).all(|&hidden| hidden) {
             return Ok(None);

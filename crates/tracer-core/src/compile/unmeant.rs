@@ -98,6 +98,11 @@ pub fn far_view(desc: &SceneDesc, camera: &Camera, frame: &Frame, diagnostics: &
     }
 }
 
+/// Whether all objects have so few copies that all of them are looked at.
+fn is_few(placed: &Placed, curved: &[Curved]) -> bool {
+    placed.maps.iter().chain(curved.iter().map(|object| &object.maps)).all(|maps| maps.len() <= MOST_MARKED)
+}
+
 /// Rectangles that shine to one side, where there is nothing.
 fn turned_away(
     desc: &SceneDesc,
@@ -106,22 +111,22 @@ fn turned_away(
     materials: &BTreeMap<&str, &Material>,
     diagnostics: &mut Diagnostics,
 ) {
-    let is_few = polygonal(desc).enumerate().all(|(k, _)| placed.maps_of(k).len() <= MOST_MARKED)
-        && curved.iter().all(|object| object.maps.len() <= MOST_MARKED);
+    let is_few = is_few(placed, curved);
     const CORNERS: [DVec3; 4] = [
         DVec3::new(-0.5, -0.5, 0.0),
         DVec3::new(0.5, -0.5, 0.0),
         DVec3::new(0.5, 0.5, 0.0),
         DVec3::new(-0.5, 0.5, 0.0),
     ];
-    let polygonal_count = polygonal(desc).count();
+    let polygonal_count = placed.maps.len();
     let mut left = MOST_PAIRS;
     let eye = DVec3::from(desc.camera.position.value);
     for (k, object) in polygonal(desc).enumerate() {
+        if !is_few || !matches!(object.geometry, Geometry::Unit(UnitShape::Square)) {
+            continue;
+        }
         let emissive = material_of(materials, object.material).and_then(Material::shines);
-        let is_lamp = emissive.is_some_and(|emissive| !emissive.two_sided);
-        let is_flat = matches!(object.geometry, Geometry::Unit(UnitShape::Square));
-        if !is_lamp || !is_flat || !is_few {
+        if emissive.is_none_or(|emissive| emissive.two_sided) {
             continue;
         }
         let is_turned_away = |map: &DAffine3| {
@@ -160,9 +165,8 @@ fn unseen_light(number: u32, span: Span) -> Diagnostic {
 
 /// Disks that shine to one side, where there is nothing.
 fn disks_turned_away(desc: &SceneDesc, placed: &Placed, curved: &[Curved], diagnostics: &mut Diagnostics) {
-    let polygonal_count = polygonal(desc).count();
-    let is_few = (0..polygonal_count).all(|k| placed.maps_of(k).len() <= MOST_MARKED)
-        && curved.iter().all(|object| object.maps.len() <= MOST_MARKED);
+    let polygonal_count = placed.maps.len();
+    let is_few = is_few(placed, curved);
     let mut left = MOST_PAIRS;
     let eye = DVec3::from(desc.camera.position.value);
     for (k, object) in curved.iter().enumerate() {

@@ -106,7 +106,10 @@ pub fn table(programs: &[Program], loaded: &Loaded, built: &Built) -> ColorTable
             *meshes = built.vertices_of.iter().map(of_mesh).collect();
         }
     }
-    ColorTable::new(words.words, of_meshes, &built.instances)
+    if of_meshes.iter().all(Vec::is_empty) {
+        return ColorTable::default();
+    }
+    ColorTable::new(words.words, of_meshes, &built.instances())
 }
 
 /// Colours of files, each once for each way that they stand.

@@ -6,7 +6,7 @@ use crate::support::meshes::{icosphere, square};
 use crate::support::{compiled, effort, film};
 use glam::{DMat3, DVec3};
 use scene_format::SceneDesc;
-use scene_format::desc::{Amount, Instances, LightGroup, Name, Object, Placements, Shading, SphereLight, Transform};
+use scene_format::desc::{Amount, Instances, LightGroup, Name, Object, Shading, SphereLight, Transform};
 use std::f64::consts::PI;
 use std::path::Path;
 use tracer_core::Scene;
@@ -198,7 +198,7 @@ fn copies_are_flattened_as_the_scene_says() {
             let factor = [mirrored * (1.0 + 0.1 * k), 1.0, 0.7];
             vec![Transform::Scale { factor, about: None }.into(), Transform::Translate([3.0 * k, 0.5, -k]).into()]
         };
-        let placements = Placements::List(Box::new((0..count).map(copy).collect()));
+        let placements = (0..count).map(copy).collect();
         let mut object = placed(&file, diffuse([0.5; 3]), Shading::Smooth, vec![scale(0.5)], placements);
         if let Object::Mesh(mesh) = &mut object {
             mesh.instances = instances;

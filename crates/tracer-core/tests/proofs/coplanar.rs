@@ -63,9 +63,7 @@ pub(crate) fn rectangle(size: f64, material: Material, transform: Vec<Transform>
 fn instance(size: f64, material: Material, mut transform: Vec<Transform>, attitude: &Attitude) -> Object {
     transform.insert(0, scale(size / 2.0));
     let away = attitude.point(DVec3::X * 500.0) - attitude.place;
-    let copies = Placements::List(Box::new(
-        [vec![], vec![Spanned::from(Transform::Translate(away.to_array()))]].into_iter().collect(),
-    ));
+    let copies = [vec![], vec![Spanned::from(Transform::Translate(away.to_array()))]].into_iter().collect();
     placed(&square(1.0).obj("square-1"), material, Shading::Flat, transform, copies)
 }
 

@@ -4,8 +4,8 @@
 use crate::support::compare::{Samples, assert_same_picture};
 use crate::support::describe::*;
 use scene_format::desc::{
-    Capsule, Cone, Cylinder, Disk, Emissive, LightGroup, Material, MaterialRef, Name, Object, PerAxis, PlacementList,
-    Placements, Rectangle, Torus, Transform, Transparent, Vec3,
+    Capsule, Cone, Cylinder, Disk, Emissive, LightGroup, Material, MaterialRef, Name, Object, PerAxis, Placements,
+    Rectangle, Torus, Transform, Transparent, Vec3,
 };
 use scene_format::{SceneDesc, desc::Amount};
 use tracer_core::compile;
@@ -204,8 +204,7 @@ fn placed_spheres_are_spheres() {
     let copy = |x: f64, size: f64| {
         vec![Transform::Scale { factor: [size; 3], about: None }.into(), Transform::Translate([x, 2.5, 0.0]).into()]
     };
-    let copies: PlacementList = [copy(-1.0, 0.2), copy(1.0, 0.4)].into_iter().collect();
-    *copied.placements_mut() = Placements::List(Box::new(copies));
+    *copied.placements_mut() = [copy(-1.0, 0.2), copy(1.0, 0.4)].into_iter().collect();
     let both = vec![sphere([-1.0, 2.5, 0.0], 0.2, lamp.clone()), sphere([1.0, 2.5, 0.0], 0.4, lamp.clone())];
     let samples = Samples { engine: 128, reference: 128 };
     assert_same_picture("copied lamps", &view(vec![copied.clone()]), samples);

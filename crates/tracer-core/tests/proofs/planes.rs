@@ -425,13 +425,13 @@ fn faults_of_planes() {
     let fitted = "E0211: a plane has no extent that could be fitted";
     assert_eq!(told(plane([0.0; 3], UP, matt(), vec![fit.clone()])), [fitted]);
     let mut copied = plane([0.0; 3], UP, matt(), vec![]);
-    *copied.placements_mut() = Placements::List(Box::new([vec![], vec![fit.into()]].into_iter().collect()));
+    *copied.placements_mut() = [vec![], vec![fit.into()]].into_iter().collect();
     assert_eq!(told(copied), [fitted]);
     let flat = Transform::Scale { factor: [1.0, 0.0, 1.0], about: None };
     let flattened = "E0540: the transforms flatten the plane to nothing";
     assert_eq!(told(plane([0.0; 3], UP, matt(), vec![flat])), [flattened]);
     let mut twice = plane([0.0; 3], UP, matt(), vec![]);
     let copies = [vec![], vec![Transform::Translate([3.0, 0.0, 1.0]).into()]];
-    *twice.placements_mut() = Placements::List(Box::new(copies.into_iter().collect()));
+    *twice.placements_mut() = copies.into_iter().collect();
     assert_eq!(told(twice), ["W0316: this shape lies in one place with another: one of the two is seen"]);
 }

@@ -84,7 +84,7 @@ fn object(random: &mut Random) -> Object {
                 Spanned::from(Transform::Translate(by)),
             ]
         };
-        Placements::List(Box::new((0..2).map(|_| copy(random)).collect()))
+        (0..2).map(|_| copy(random)).collect()
     };
     placed(&file, material, shading, steps, placements)
 }

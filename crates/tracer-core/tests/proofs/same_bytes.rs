@@ -6,8 +6,8 @@ use crate::support::describe::*;
 use crate::support::meshes::{cube, deep_picture, icosphere, picture, square, torus};
 use scene_format::SceneDesc;
 use scene_format::desc::{
-    Acceleration, Caustics, Instances, Integrator, MaterialRef, Object, Part, PixelFilter, Placements, Reuse, Shading,
-    Stereo, StereoLayout, TextureFilter, TextureWrap, Transform,
+    Acceleration, Caustics, Instances, Integrator, MaterialRef, Object, Part, PixelFilter, Reuse, Shading, Stereo,
+    StereoLayout, TextureFilter, TextureWrap, Transform,
 };
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -45,22 +45,16 @@ pub(crate) fn everything() -> SceneDesc {
             diffuse([0.7, 0.5, 0.3]),
             Shading::Auto,
             vec![scale(0.25)],
-            Placements::List(Box::new(
-                (0..9)
-                    .map(|k| {
-                        let angle = 40.0 * f64::from(k);
-                        vec![
-                            Transform::Translate([0.0, 0.3, 5.0]).into(),
-                            Transform::Rotate {
-                                axis: [0.1, 1.0, 0.0],
-                                degrees: angle,
-                                about: Some(Box::new([0.0; 3])),
-                            }
+            (0..9)
+                .map(|k| {
+                    let angle = 40.0 * f64::from(k);
+                    vec![
+                        Transform::Translate([0.0, 0.3, 5.0]).into(),
+                        Transform::Rotate { axis: [0.1, 1.0, 0.0], degrees: angle, about: Some(Box::new([0.0; 3])) }
                             .into(),
-                        ]
-                    })
-                    .collect(),
-            )),
+                    ]
+                })
+                .collect(),
         ),
     ];
     let lights = vec![
@@ -311,7 +305,7 @@ fn meshes_written_out() {
                 mesh.source = shape.written_out();
             }
             let copies = [[0.0; 3], [-1.0, 0.4, -1.0]].map(|to| vec![Transform::Translate(to).into()]);
-            mesh.placements = Placements::List(Box::new(copies.into_iter().collect()));
+            mesh.placements = copies.into_iter().collect();
             mesh.instances = instances;
         }
         let light = light([4.0, 7.0, 5.0], 1.0, [12.0, 11.0, 9.0]);

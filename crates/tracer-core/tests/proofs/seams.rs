@@ -38,11 +38,8 @@ impl Pane {
             Transform::Translate(self.place.to_array()),
         ];
         let away = Transform::Translate((self.turned(DVec3::Y) * -50.0 * self.size).to_array());
-        let copies = if self.copies {
-            Placements::List(Box::new([vec![], vec![Spanned::from(away)]].into_iter().collect()))
-        } else {
-            Placements::One
-        };
+        let copies =
+            if self.copies { [vec![], vec![Spanned::from(away)]].into_iter().collect() } else { Placements::One };
         let pane = placed(&square(1.0).obj("square-1"), diffuse([1.0; 3]), Shading::Flat, steps, copies);
         let lamp = light(self.light().to_array(), 0.02 * self.size, [1.0; 3]);
         let eye = self.place + self.turned(DVec3::Y) * 4.0 * self.size;

@@ -93,7 +93,7 @@ fn rectangles_as_the_reference_sees_them() {
         ];
         rectangle.transform = steps.map(Into::into).to_vec();
         let turned = |z: f64| vec![Transform::Scale { factor: [1.0, 1.0, z], about: Some(Box::new([0.0; 3])) }.into()];
-        rectangle.placements = Placements::List(Box::new([turned(1.0), turned(-1.0)].into_iter().collect()));
+        rectangle.placements = [turned(1.0), turned(-1.0)].into_iter().collect();
     }
     // One tile is lit by so few paths that 512 samples of the reference are no sum that a normal distribution
     // describes.

@@ -8,9 +8,7 @@ use crate::support::describe::*;
 use crate::support::{compiled, film};
 use glam::DVec3;
 use scene_format::SceneDesc;
-use scene_format::desc::{
-    Corners, Material, MaterialRef, Name, Object, PlacementList, Placements, Polygon, Transform, Vec3,
-};
+use scene_format::desc::{Corners, Material, MaterialRef, Name, Object, Placements, Polygon, Transform, Vec3};
 use std::f64::consts::PI;
 use tracer_core::scene::Light;
 
@@ -52,8 +50,7 @@ fn lamps_as_the_reference_sees_them() {
         let factor = [0.6, 0.6, 0.6 * mirrored];
         vec![Transform::Scale { factor, about: None }.into(), Transform::Translate([x, 1.2, 0.4]).into()]
     };
-    let copies: PlacementList = [there(1.0, 1.0), there(0.1, -1.0)].into_iter().collect();
-    *copied.placements_mut() = Placements::List(Box::new(copies));
+    *copied.placements_mut() = [there(1.0, 1.0), there(0.1, -1.0)].into_iter().collect();
     same("copied ellipsoids", vec![copied]);
 }
 

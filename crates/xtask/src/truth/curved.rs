@@ -53,8 +53,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let material = inline(material);
     let transform = if once_in(random, 2) { steps(middle, radius, random) } else { Vec::new() };
     let there = vec![Transform::Translate(center).into()];
-    let placements =
-        if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One };
+    let placements = if copied { std::iter::once(there).collect() } else { Placements::One };
     let object = match random.below(6) {
         0 if !glass => Object::Disk(Box::new(Disk {
             center: middle.into(),
@@ -132,7 +131,7 @@ pub fn plane(world: &mut World, point: Point, normal: Point, material: Material,
         transform.clear();
         facing = normal;
         let there = vec![Transform::Scale { factor: [2.0; 3], about: None }.into(), Transform::Translate(moved).into()];
-        placements = Placements::List(Box::new(std::iter::once(there).collect()));
+        placements = std::iter::once(there).collect();
     }
     let (point, normal) = (written.into(), facing.into());
     let (material, name) = (inline(material), Name::default());
@@ -183,6 +182,6 @@ pub fn ball(world: &mut World, center: Point, radius: f64, material: Material, r
     if let Some(object) = world.desc.objects.last_mut() {
         let there = vec![Transform::Translate(center).into()];
         *object.value.transform_mut() = steps([0.0; 3], radius, random);
-        *object.value.placements_mut() = Placements::List(Box::new(std::iter::once(there).collect()));
+        *object.value.placements_mut() = std::iter::once(there).collect();
     }
 }

@@ -237,9 +237,9 @@ pub fn crowd(world: &mut World, count: usize, reach: f64, floor: f64, material: 
         ]);
     }
     let placements = if once_in(random, 2) {
-        Placements::File(Box::new(world.file("crowd", "txt", lines.into_bytes()).into()))
+        Placements::from(world.file("crowd", "txt", lines.into_bytes()))
     } else {
-        Placements::List(Box::new(list.into_iter().collect()))
+        list.into_iter().collect()
     };
     let instances = one_of(random, &[Instances::Auto, Instances::Always, Instances::Never]);
     last_mesh(world, |mesh| (mesh.placements, mesh.instances) = (placements, instances));

@@ -7,8 +7,8 @@ use super::world::{World, inline};
 use crate::picture::Picture;
 use glam::DVec3;
 use scene_format::desc::{
-    Arrow, Corners, Curve, Extrude, HeightField, Lathe, Material, Name, Object, Outline, PathPoints, Placements,
-    Polygon, Profile, Radii, Transform, Tube, TubeCurve, Vec3,
+    Arrow, Corners, Curve, Extrude, HeightField, Lathe, Material, Name, Object, Outline, PathPoints, Polygon, Profile,
+    Radii, Transform, Tube, TubeCurve, Vec3,
 };
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let segments = if once_in(random, 2) { 128 } else { 3 + random.below(30) as u32 };
     let transform = if once_in(random, 4) { Vec::new() } else { steps([0.0; 3], radius, random) };
     let there = vec![Transform::Translate(center).into()];
-    let placements = Placements::List(Box::new(std::iter::once(there).collect()));
+    let placements = std::iter::once(there).collect();
     let (material, name) = (inline(material), Name::default());
     let object = match random.below(11) {
         10 if !glass => {

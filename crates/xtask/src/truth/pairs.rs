@@ -15,7 +15,7 @@ use super::relation::{PLANE_MIRROR, Relation};
 use super::report::{percent, signed};
 use super::trial::{Picture, Pictures as _, Source, TILE, regions};
 use super::world::{World, diffuse, glass, matt, mirror, tinted};
-use scene_format::desc::{Instances, Material, Placements, Transform};
+use scene_format::desc::{Instances, Material, Transform};
 use scene_format::diagnostic::Spanned;
 use tracer_core::Scene;
 use tracer_reference::Random;
@@ -269,9 +269,8 @@ fn copies(receiver: Receiver) -> World {
         let to = [0.3 + 0.8 * f64::from(k), 0.0, 1.3];
         vec![Spanned::from(turn), Spanned::from(Transform::Translate(to))]
     };
-    let list = (0..3).map(placement).collect();
     super::draw::last_mesh(&mut world, |mesh| {
-        mesh.placements = Placements::List(Box::new(list));
+        mesh.placements = (0..3).map(placement).collect();
         mesh.instances = Instances::Always;
     });
     world

@@ -2,7 +2,7 @@
 
 use super::draw::material_of;
 use super::world::World;
-use scene_format::desc::{Background, Focus, Instances, Light, Material, Object, Placements, Transform};
+use scene_format::desc::{Background, Copies, Focus, Instances, Light, Material, Object, Placements, Transform};
 
 /// How the file of a mirror begins that fills the plane x = 0.
 pub const PLANE_MIRROR: &str = "plane-mirror";
@@ -74,7 +74,9 @@ fn mirrored(object: &Object) -> Object {
     }
     object.transform_mut().push(mirror().into());
     // A copy P T becomes M P T = (M P M) (M T). What stands in a file is not drawn where scenes are mirrored.
-    if let Placements::List(list) = object.placements_mut() {
+    if let Placements::Many(copies) = object.placements_mut()
+        && let Copies::List(list) = &mut **copies
+    {
         let copies = list.iter().map(|steps| {
             let mut mirrored = vec![mirror().into()];
             mirrored.extend_from_slice(steps);

@@ -32,7 +32,7 @@ pub fn rectangle(world: &mut World, center: Point, radius: f64, material: Materi
         size: PerAxis(size).into(),
         material: inline(material),
         transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
-        placements: if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One },
+        placements: if copied { std::iter::once(there).collect() } else { Placements::One },
         camera_visible: true,
         name: Name::default(),
     };
@@ -54,7 +54,7 @@ pub fn cuboid(world: &mut World, center: Point, radius: f64, material: Material,
         rounding: rounding.into(),
         material: inline(material),
         transform: if once_in(random, 2) { steps(random) } else { Vec::new() },
-        placements: if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One },
+        placements: if copied { std::iter::once(there).collect() } else { Placements::One },
         camera_visible: true,
         name: Name::default(),
     };

@@ -16,8 +16,7 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let copied = once_in(random, 4);
     let middle = if copied { [0.0; 3] } else { center };
     let there = vec![Transform::Translate(center).into()];
-    let placements =
-        if copied { Placements::List(Box::new(std::iter::once(there).collect())) } else { Placements::One };
+    let placements = if copied { std::iter::once(there).collect() } else { Placements::One };
     let about = |mut steps: Vec<Spanned<Transform>>| {
         // The middle of a solid is the origin.
         for step in &mut steps {

@@ -98,7 +98,7 @@ impl World {
             camera_visible: true,
             name: Name::default(),
         };
-        self.desc.objects.push(Object::Mesh(mesh).into());
+        self.desc.objects.push(Object::from(mesh).into());
     }
 
     /// Adds a lamp of this radiance.

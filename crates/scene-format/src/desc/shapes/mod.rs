@@ -37,7 +37,7 @@ pub use inline_mesh::{Faces, InlineMesh};
 pub use lathe::{Lathe, Profile, Turning};
 pub use mesh::{Instances, Mesh, MeshSource, Part, Shading};
 pub use pattern::PlacementPattern;
-pub use placements::{Groups, Moved, PlacementList, Placements, Within};
+pub use placements::{Copies, Groups, Moved, PlacementList, Placements, Within};
 pub use plane::Plane;
 pub use polygon::{Corners, Polygon, no_extent};
 pub use rectangle::Rectangle;

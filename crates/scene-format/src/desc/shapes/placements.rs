@@ -8,23 +8,30 @@ use crate::read::{Reader, make_room};
 use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
 use crate::words::Words;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Many copies of one object.
+/// Where an object is. Eight bytes long, as a scene may have millions of objects that are in one place.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub enum Placements {
     /// One copy, where `transform` puts it.
     #[default]
     One,
-    /// Copies, each with its own transforms (about the origin of the scene unless they say `about`).
+    /// As many as these say.
+    Many(Box<Copies>),
+}
+
+/// Copies of one object.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Copies {
+    /// Each with its own transforms (about the origin of the scene unless they say `about`).
     List(Box<PlacementList>),
     /// A text file of placements, one a line, relative to the scene file.
     File(Box<Spanned<Arc<Path>>>),
-    /// Copies by a rule.
+    /// By a rule.
     Pattern(Box<Spanned<PlacementPattern>>),
     /// Those of an object in a group: its own, and the group's of them.
-    Within(Box<Within>),
+    Within(Within),
 }
 
 /// Copies of an object that stands in groups: for each copy of a group one of each copy within.
@@ -57,8 +64,8 @@ pub struct Moved {
 impl Moved {
     /// The first of its steps that asks how far reaches what stands in the group, in its placements, too.
     pub fn asks_for_reach(&self) -> Option<&Spanned<Transform>> {
-        match &self.placements {
-            Placements::List(list) => asks(&self.transform).or_else(|| list.iter().find_map(asks)),
+        match self.placements.copies() {
+            Some(Copies::List(list)) => asks(&self.transform).or_else(|| list.iter().find_map(asks)),
             _ => asks(&self.transform),
         }
     }
@@ -78,13 +85,29 @@ impl Groups {
 }
 
 impl Placements {
+    /// Its copies, where it is not just one.
+    pub fn copies(&self) -> Option<&Copies> {
+        match self {
+            Placements::One => None,
+            Placements::Many(copies) => Some(copies),
+        }
+    }
+
+    /// Its groups, where it stands in some, and what it is in the innermost.
+    pub fn within(&self) -> Option<&Within> {
+        match self.copies()? {
+            Copies::Within(within) => Some(within),
+            _ => None,
+        }
+    }
+
     /// How many copies they make, as far as the scene says it: a file counts as one.
     pub fn known_copies(&self) -> u64 {
-        match self {
-            Placements::One | Placements::File(_) => 1,
-            Placements::List(list) => list.iter().len() as u64,
-            Placements::Pattern(pattern) => pattern.value.count(),
-            Placements::Within(within) => {
+        match self.copies() {
+            None | Some(Copies::File(_)) => 1,
+            Some(Copies::List(list)) => list.iter().len() as u64,
+            Some(Copies::Pattern(pattern)) => pattern.value.count(),
+            Some(Copies::Within(within)) => {
                 let groups = within.groups.outwards();
                 let copies = groups.iter().map(|group| group.placements.known_copies());
                 copies.fold(within.own.known_copies(), u64::saturating_mul)
@@ -94,14 +117,59 @@ impl Placements {
 
     /// The placements files that they name.
     pub fn files(&self) -> Vec<&Spanned<Arc<Path>>> {
-        match self {
-            Placements::File(file) => vec![file],
-            Placements::Within(within) => {
+        match self.copies() {
+            Some(Copies::File(file)) => vec![file],
+            Some(Copies::Within(within)) => {
                 let groups = within.groups.outwards();
                 within.own.files().into_iter().chain(groups.iter().flat_map(|group| group.placements.files())).collect()
             }
-            Placements::One | Placements::List(_) | Placements::Pattern(_) => Vec::new(),
+            None | Some(Copies::List(_) | Copies::Pattern(_)) => Vec::new(),
         }
+    }
+}
+
+impl From<Copies> for Placements {
+    fn from(copies: Copies) -> Self {
+        Placements::Many(Box::new(copies))
+    }
+}
+
+impl From<PlacementList> for Placements {
+    fn from(list: PlacementList) -> Self {
+        Copies::List(Box::new(list)).into()
+    }
+}
+
+/// Of a placements file.
+impl From<Spanned<Arc<Path>>> for Placements {
+    fn from(file: Spanned<Arc<Path>>) -> Self {
+        Copies::File(Box::new(file)).into()
+    }
+}
+
+/// Of a placements file.
+impl From<PathBuf> for Placements {
+    fn from(file: PathBuf) -> Self {
+        Placements::from(Spanned::<Arc<Path>>::from(file))
+    }
+}
+
+impl From<Spanned<PlacementPattern>> for Placements {
+    fn from(pattern: Spanned<PlacementPattern>) -> Self {
+        Copies::Pattern(Box::new(pattern)).into()
+    }
+}
+
+impl From<Within> for Placements {
+    fn from(within: Within) -> Self {
+        Copies::Within(within).into()
+    }
+}
+
+/// Copies, each with its own transforms.
+impl FromIterator<Vec<Spanned<Transform>>> for Placements {
+    fn from_iter<I: IntoIterator<Item = Vec<Spanned<Transform>>>>(placements: I) -> Self {
+        placements.into_iter().collect::<PlacementList>().into()
     }
 }
 
@@ -177,7 +245,7 @@ impl Words for Placements {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         match item.kind() {
-            Kind::Text => <Spanned<Arc<Path>>>::read(reader, item, at).map(|file| Placements::File(Box::new(file))),
+            Kind::Text => <Spanned<Arc<Path>>>::read(reader, item, at).map(Placements::from),
             Kind::List => {
                 if reader.placements_elsewhere(item, at) {
                     return None;
@@ -197,11 +265,11 @@ impl Words for Placements {
                         list.end();
                     }
                 });
-                Some(if list.is_empty() { Placements::One } else { Placements::List(Box::new(list)) })
+                Some(if list.is_empty() { Placements::One } else { list.into() })
             }
             _ if names_a_pattern(item) => {
                 let pattern = <Spanned<PlacementPattern>>::read(reader, item, at)?;
-                reader.takes_copies(item, pattern.value.count()).then(|| Placements::Pattern(Box::new(pattern)))
+                reader.takes_copies(item, pattern.value.count()).then(|| pattern.into())
             }
             _ => {
                 let expected =
@@ -212,16 +280,16 @@ impl Words for Placements {
     }
 
     fn form(&self, all: bool) -> Form {
-        match self {
-            Placements::One => Form::List(Vec::new()),
-            Placements::List(list) => {
+        match self.copies() {
+            None => Form::List(Vec::new()),
+            Some(Copies::List(list)) => {
                 let placement = |steps: &[Spanned<Transform>]| Form::list(steps.iter().map(|step| step.form(all)));
                 Form::list(list.iter().map(placement))
             }
-            Placements::File(file) => file.form(all),
-            Placements::Pattern(pattern) => pattern.form(all),
+            Some(Copies::File(file)) => file.form(all),
+            Some(Copies::Pattern(pattern)) => pattern.form(all),
             // The groups are written around the object.
-            Placements::Within(within) => within.own.form(all),
+            Some(Copies::Within(within)) => within.own.form(all),
         }
     }
 }

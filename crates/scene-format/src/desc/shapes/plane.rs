@@ -1,6 +1,6 @@
 //! Planes without an end.
 
-use super::Placements;
+use super::{Copies, Placements};
 use crate::codes;
 use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::{Diagnostic, Span, Spanned};
@@ -51,11 +51,11 @@ impl Faulty for Plane {
     /// A step that asks for what a plane does not have.
     fn faults(&self, _: Span) -> Vec<Diagnostic> {
         let mut placements = &self.placements;
-        while let Placements::Within(within) = placements {
+        while let Some(within) = placements.within() {
             placements = &within.own;
         }
-        let copies = match placements {
-            Placements::List(list) => list.iter().flatten().collect(),
+        let copies = match placements.copies() {
+            Some(Copies::List(list)) => list.iter().flatten().collect(),
             _ => Vec::new(),
         };
         self.transform.iter().chain(copies).find_map(endless_fault).into_iter().collect()

@@ -91,7 +91,7 @@ pub fn placed(
     transform: Vec<Transform>,
     placements: Placements,
 ) -> Object {
-    Object::Mesh(Mesh {
+    Object::from(Mesh {
         source: MeshSource::File(file.to_owned().into()),
         part: Part::default(),
         material: inline(material),
