@@ -293,9 +293,9 @@ impl Row {
 /// The last column of the inverse, to the bit as `DMat3::inverse` makes it.
 fn last_of_inverse(m: &DMat3) -> DVec3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *m;
-    let last = x.cross(y);
-    let one_over = z.dot(last).recip();
-    DVec3::new(y.x * z.y - z.x * y.y, z.x * x.y - x.x * z.y, last.z) * one_over
+    let first = y.cross(z);
+    let one_over = 1.0 / x.dot(first);
+    DVec3::new(first.z, z.x * x.y - x.x * z.y, x.x * y.y - y.x * x.y) * one_over
 }
 
 /// A flat part of a shape: what of the plane z = `z` of its object space is between two circles about the z axis.

@@ -1,5 +1,5 @@
-//! Disks, cylinders, cones, capsules, tori and ellipsoids: engine and reference make the same picture, whatever they are made
-//! of; placed spheres.
+//! Disks, cylinders, cones, capsules, tori and ellipsoids: engine and reference make the same picture, whatever they
+//! are made of; placed spheres.
 
 use crate::support::compare::{Samples, assert_same_picture};
 use crate::support::describe::*;

@@ -177,8 +177,8 @@ fn glass_solids_in_a_white_furnace_cannot_be_seen() {
         ),
         (
             "rings",
-            "Union(objects: [Torus(radius: 0.7, tube_radius: 0.25), Torus(axis: (1, 0, 0), radius: 0.6, tube_radius: 0.2), \
-             Torus(radius: 0.7, tube_radius: 0.25)], ",
+            "Union(objects: [Torus(radius: 0.7, tube_radius: 0.25), \
+             Torus(axis: (1, 0, 0), radius: 0.6, tube_radius: 0.2), Torus(radius: 0.7, tube_radius: 0.25)], ",
         ),
         ("step", "Difference(objects: [Box(), Box(center: (0.25, 0.25, 0), size: (0.5, 0.5, 1))], "),
     ];

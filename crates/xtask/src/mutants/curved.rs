@@ -3,6 +3,7 @@
 use super::{Mutant, kernel_units, proofs, suite};
 
 const CONE: &str = "crates/kernels/src/shapes/cone.rs";
+const TORUS: &str = "crates/kernels/src/shapes/torus.rs";
 const CSG: &str = "crates/kernels/src/shapes/csg.rs";
 const PLANES: &str = "crates/kernels/src/engine/stages/planes.rs";
 const LAMP: &str = "crates/kernels/src/shapes/lamp/mod.rs";
@@ -29,6 +30,27 @@ pub const MUTANTS: &[Mutant] = &[
         find: "let parts = [side, ball_at(-half), ball_at(half)];",
         replace: "let parts = [None, ball_at(-half), ball_at(half)];",
         caught_by: suite("shapes", &[]),
+    },
+    Mutant {
+        name: "tori-are-met-where-rays-leave-them",
+        file: TORUS,
+        find: "let mut inside = start.unwrap_or(false);",
+        replace: "let mut inside = false;",
+        caught_by: suite("shapes", &["rays_that_leave_a_torus"]),
+    },
+    Mutant {
+        name: "tori-have-one-way-in",
+        file: TORUS,
+        find: "([root(2.0 * PI / 3.0), root(-2.0 * PI / 3.0), root(0.0)], 3)",
+        replace: "([root(2.0 * PI / 3.0), root(-2.0 * PI / 3.0), root(0.0)], 1)",
+        caught_by: suite("shapes", &[]),
+    },
+    Mutant {
+        name: "glowing-tori-are-told-of-one-front",
+        file: "crates/kernels/src/shapes/lamp/ring.rs",
+        find: "within.intervals().iter().map(",
+        replace: "within.intervals().iter().take(1).map(",
+        caught_by: kernel_units(&["shapes::lamp"]),
     },
     Mutant {
         name: "disks-have-no-hole",
@@ -75,8 +97,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "rays-meet-the-plane-that-they-leave",
         file: PLANES,
-        find: "&& paths.from_primitive[i] != plane.id",
-        replace: "&& paths.from_primitive[i] != plane.id + 1_000",
+        find: "& (from[k] != id);",
+        replace: "& (from[k] != id + 1000.0);",
         caught_by: proofs(&["planes::it_reaches"]),
     },
     Mutant {

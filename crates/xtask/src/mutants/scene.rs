@@ -171,8 +171,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "copies-forget-their-own-material",
         file: MESHES,
-        find: "material: whole,\n            object: polygonal.number,\n            placement: Some(",
-        replace: "material: 0,\n            object: polygonal.number,\n            placement: Some(",
+        find: "built.add_copy(bvh::InstanceGeometry { mesh, placement }, whole, polygonal.number);",
+        replace: "built.add_copy(bvh::InstanceGeometry { mesh, placement }, 0, polygonal.number);",
         caught_by: proofs(&["compiling", "random_scenes"]),
     },
     Mutant {

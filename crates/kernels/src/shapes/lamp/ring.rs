@@ -6,8 +6,8 @@
 //! integral of one over it is 2 / sqrt(A^2 - B^2) atan(sqrt((A + B) / (A - B)) tan(x / 2)). In the plane of the section
 //! let L be the distance of o from its middle: the point is chosen by the angle under which the circle is seen, as
 //! lines of cylinders are, and where o projects into the circle nothing is seen of the section. A piece of the surface
-//! is tube rho' dx dy, rho' its distance from the axis, and all together is D^3 / (l^2 rho' spread) in solid angle, with
-//! D the point's distance, l that in the plane, and spread the angle.
+//! is tube rho' dx dy, rho' its distance from the axis, and all together is D^3 / (l^2 rho' spread) in solid angle,
+//! with D the point's distance, l that in the plane, and spread the angle.
 //!
 //! A line may pass through the front more than once: all that could have taken a direction count.
 
