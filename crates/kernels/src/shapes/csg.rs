@@ -3,8 +3,9 @@
 //! A solid is one primitive. It is a list of [`Part`]s in postfix order: surfaces, which make operands, and operations.
 //! Every surface bounds a convex set (half a space, a ball, a round cone, a capsule), so a line is within it in one
 //! interval, or a torus, where it is in up to two; an operand is what its surfaces have in common, and operations go by
-//! the sorted lists of intervals of both sides. The nearest end ahead is the hit. Surfaces of several operands that are one and the same have the same
-//! numbers, hence the same ends to the last bit: where faces coincide there is neither a skin nor a wall nor a gap.
+//! the sorted lists of intervals of both sides. The nearest end ahead is the hit. Surfaces of several operands that are
+//! one and the same have the same numbers, hence the same ends to the last bit: where faces coincide there is neither a
+//! skin nor a wall nor a gap.
 //!
 //! A ray that leaves a solid is at t = 0 on the border that is nearest to where it starts, and on all surfaces that
 //! coincide with it there. Each of these it leaves, or goes into: it is within its convex set from 0 on, or never

@@ -8,8 +8,8 @@
 //! From within a closed shape all directions meet it, and are as likely as each other. From outside a part is chosen,
 //! by about the solid angle that it covers: what is seen of a side from its front or its back ([`side`]), a ball
 //! ([`round`]), a disk or cap ([`flat`]); a torus is one part ([`ring`]). A capsule is two balls and a side that
-//! overlap: all that could have taken a direction count. What a part's direction meets is found as rays find it; where that is another part, which hides it,
-//! the sample is nothing.
+//! overlap: all that could have taken a direction count. What a part's direction meets is found as rays find it; where
+//! that is another part, which hides it, the sample is nothing.
 //!
 //! One scalar function in `f64` for all lanes, as hits are.
 
