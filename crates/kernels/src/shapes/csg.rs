@@ -495,7 +495,8 @@ pub(super) fn hit(parts: &[Part], origin: DVec3, direction: DVec3, leaves: bool)
     match (parts.len() <= FEW_PARTS, parts.iter().any(Part::is_torus)) {
         (true, false) => hit_of::<FEW_PARTS, FEW_OPERANDS>(parts, origin, direction, leaves),
         (true, true) => hit_of::<FEW_PARTS, { 2 * FEW_OPERANDS }>(parts, origin, direction, leaves),
-        (false, _) => hit_of::<MOST_PARTS, MOST_INTERVALS>(parts, origin, direction, leaves),
+        (false, false) => hit_of::<MOST_PARTS, MOST_OPERANDS>(parts, origin, direction, leaves),
+        (false, true) => hit_of::<MOST_PARTS, MOST_INTERVALS>(parts, origin, direction, leaves),
     }
 }
 

@@ -228,12 +228,46 @@ impl Row {
     #[inline(never)]
     pub fn hit_among(&self, parts: &[csg::Part], origin: [f32; 3], direction: [f32; 3], leaves: bool) -> Option<f32> {
         let [origin, direction] = [origin, direction].map(|v| DVec3::from(v.map(f64::from)));
-        let t = match self.kind {
+        let t = self.meet_among(parts, origin, direction, leaves)? as f32;
+        (t > 0.0 && t < f32::INFINITY).then_some(t)
+    }
+
+    #[inline(always)]
+    fn meet_among(&self, parts: &[csg::Part], origin: DVec3, direction: DVec3, leaves: bool) -> Option<f64> {
+        match self.kind {
             UnitShape::SOLID => csg::hit(self.parts(parts), origin, direction, leaves),
             _ => self.meet(origin, direction, leaves),
-        };
-        let t = t? as f32;
-        (t > 0.0 && t < f32::INFINITY).then_some(t)
+        }
+    }
+
+    /// Whether a part of it stands between a ray's origin and its end at `t_max`, which lies on it, on a side that
+    /// faces the origin; `leaves`: the origin lies on it, too. Where it is convex none does. Asked from the end back:
+    /// what starts on the shape is not met where it starts.
+    #[inline(never)]
+    pub fn hides_itself(
+        &self,
+        parts: &[csg::Part],
+        origin: [f32; 3],
+        direction: [f32; 3],
+        leaves: bool,
+        t_max: f32,
+    ) -> bool {
+        let open = self.kind == UnitShape::CONE && self.parameters[2].to_bits() & CAPS == 0;
+        if !open && self.kind != UnitShape::TORUS && self.kind != UnitShape::SOLID {
+            return false;
+        }
+        let [origin, direction] = [origin, direction].map(|v| DVec3::from(v.map(f64::from)));
+        let t_max = f64::from(t_max);
+        let end = origin + t_max * direction;
+        match self.meet_among(parts, end, -direction, true).filter(|t| *t < t_max) {
+            Some(back) if leaves => {
+                // From both ends the other one is met where nothing is between: t_max twice. What is between is met
+                // from both before half of that.
+                let ahead = self.meet_among(parts, origin, direction, true);
+                ahead.is_some_and(|ahead| ahead + back < 1.5 * t_max)
+            }
+            back => back.is_some(),
+        }
     }
 
     /// Where the ray meets it, before that is rounded; a solid is not met.

@@ -136,6 +136,8 @@ pub(super) fn within(tube: f64, ray: &ObjectRay, start: Option<bool>) -> Within 
     let d = ray.d / length;
     // The line's own s of the point that the ray is given by.
     let s_of_ray = ray.o.dot(d);
+    // A ray that starts on it is off it by the rounding of its start: the torus through that point is meant.
+    let tube = start.map_or(tube, |_| out(ray.o).length().min(1.0));
     let line = Line { o: ray.o - s_of_ray * d, d, tube };
     let t_of = |s: f64| ray.t0 + (s - s_of_ray) / length;
     let mut inside = start.unwrap_or(false);

@@ -345,7 +345,9 @@ impl Scale {
                 let [n, other_n] = [map, other_map].map(|map| map.matrix3.inverse().row(2) * self.size);
                 let tilted = (n - other_n).length().min((n + other_n).length());
                 let moved = (map.translation - other_map.translation).length();
-                let same = most <= SAME * self.size * self.size && tilted <= SAME * n.length();
+                let long =
+                    map.matrix3.x_axis.length().max(map.matrix3.y_axis.length()).max(map.matrix3.z_axis.length());
+                let same = most <= SAME * self.size * long && tilted <= SAME * n.length();
                 (same && moved <= SAME * self.size && (tube - other).abs() <= SAME * tube).then_some(false)
             }
             (Surface::Plane | Surface::Capsule { .. } | Surface::Torus { .. }, _)

@@ -307,3 +307,40 @@ fn faults_of_solids() {
         assert_eq!(told(&described(&format!("Scene({lamp}, objects: [{solid}])"))), [expected], "{solid}");
     }
 }
+
+/// Rings about a lamp on a floor: what is lit of their far inner side does not shine through the near one. The floor
+/// outside is black to the last bit, as rims are of one height and nothing is above.
+#[test]
+fn nothing_shines_through_its_own_near_wall() {
+    let rings = [
+        ("torus", "Torus(center: (0, 0.3, 0), radius: 1, tube_radius: 0.3)"),
+        (
+            "pipe",
+            "Difference(objects: [Cylinder(to: (0, 0.6, 0), radius: 1.3), \
+             Cylinder(from: (0, -1, 0), to: (0, 1, 0), radius: 1)])",
+        ),
+        ("open cylinder", "Cylinder(to: (0, 0.6, 0), radius: 1, caps: false)"),
+        ("open cone", "Cone(to: (0, 0.6, 0), radius: 1.2, tip_radius: 0.9, caps: false)"),
+    ];
+    for (name, ring) in rings {
+        let desc = described(&format!(
+            "Scene(camera: Camera(position: (0, 8, 0), look_at: (0, 0, 0), up: (0, 0, -1), fov: 30), \
+             image: Image(width: 16, height: 16), render: Render(max_bounces: 3), \
+             lights: [SphereLight(center: (0, 0.3, 0), radius: 0.1, power: 100)], \
+             objects: [Rectangle(size: 20), {ring}])"
+        ));
+        let film = film(&compiled(&desc), 64, 1);
+        let (mut inside, mut outside, mut count) = (0.0, 0.0, 0);
+        for (x, y) in (0..16).flat_map(|y| (0..16).map(move |x| (x, y))) {
+            // What a pixel spans of the floor, seen from 8 above with a field of 30 degrees.
+            let at = |k: u32| (f64::from(k) - 7.5) / 8.0 * 8.0 * 0.267_949;
+            let light = film.radiance(x, y)[0];
+            if at(x).hypot(at(y)) > 1.75 {
+                (outside, count) = (outside + light, count + 1);
+            } else {
+                inside += light;
+            }
+        }
+        assert!(inside > 1.0 && count > 40 && outside == 0.0, "{name}: {outside} of {inside} in {count} pixels");
+    }
+}

@@ -229,11 +229,13 @@ pub fn trace<I: Isa16, G: Goal>(isa: I, tree: &TreeView, batch: Batch, goal: &mu
                 let mut hits = if leaf.is_shape() {
                     // SAFETY: a leaf of spheres with this mark is one of a shape, which is as long.
                     let leaf = unsafe { item::<Shape>(tree, node & Ref::UNIT) };
-                    shape(leaf, tree.parts, o, d, flight.from, flight.t)
+                    let target = if G::ANY_HIT { flight.target } else { NONE };
+                    shape(leaf, tree.parts, o, d, [flight.from, target], flight.t)
                 } else {
                     spheres4(isa, leaf, o, d, flight.from, flight.t)
                 };
                 if G::ANY_HIT
+                    && !leaf.is_shape()
                     && let Some(hits) = &mut hits
                 {
                     hits.mask &= !places_of(isa, &leaf.ids, flight.target);

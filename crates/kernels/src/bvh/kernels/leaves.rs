@@ -269,7 +269,8 @@ pub fn spheres4<I: Isa>(
     Some(LeafHits { mask, t: isa.array4(t) })
 }
 
-/// Where the ray meets the shape at 0 < t <= `limit`; `from` is the primitive that the ray leaves. One function for all
+/// Where the ray meets the shape at 0 < t <= `limit`; `from` is the primitive that the ray leaves, `target` the one
+/// that it goes to, which counts only where another part of it stands before the ray's end. One function for all
 /// levels and widths ([`Row::hit`](crate::shapes::Row::hit)), so that they have the same bits. `parts`: those of all
 /// shapes that are made of several.
 #[inline(always)]
@@ -278,9 +279,13 @@ pub fn shape(
     parts: &[Part],
     origin: [f32; 3],
     direction: [f32; 3],
-    from: u32,
+    [from, target]: [u32; 2],
     limit: f32,
 ) -> Option<LeafHits> {
+    if leaf.ids[0] == target {
+        let hides = leaf.row.hides_itself(parts, origin, direction, target == from, limit);
+        return hides.then_some(LeafHits { mask: 1, t: [0.5 * limit; 4] });
+    }
     let t = leaf.row.hit_among(parts, origin, direction, leaf.ids[0] == from)?;
     (t <= limit).then_some(LeafHits { mask: 1, t: [t; 4] })
 }

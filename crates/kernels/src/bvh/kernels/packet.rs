@@ -374,11 +374,13 @@ impl<'a, I: Isa16> Packet<'a, '_, I> {
             let mut hits = if leaf.is_shape() {
                 // SAFETY: a leaf of spheres with this mark is one of a shape, which is as long.
                 let leaf = unsafe { item::<Shape>(self.tree, unit) };
-                shape(leaf, self.tree.parts, o, d, self.from.0[lane], self.t.0[lane])
+                let target = if G::ANY_HIT { self.target.0[lane] } else { NONE };
+                shape(leaf, self.tree.parts, o, d, [self.from.0[lane], target], self.t.0[lane])
             } else {
                 spheres4(self.isa, leaf, o, d, self.from.0[lane], self.t.0[lane])
             };
             if G::ANY_HIT
+                && !leaf.is_shape()
                 && let Some(hits) = &mut hits
             {
                 hits.mask &= !places_of(self.isa, &leaf.ids, self.target.0[lane]);

@@ -9,6 +9,9 @@
 //! is tube rho' dx dy, rho' its distance from the axis, and all together is D^3 / (l^2 rho' spread) in solid angle,
 //! with D the point's distance, l that in the plane, and spread the angle.
 //!
+//! So near to the surface that the distance of a middle says little, half of the sections are chosen by that of the
+//! surface: near^2 becomes (near - tube)^2, and A and far^2 lessen by as much.
+//!
 //! A line may pass through the front more than once: all that could have taken a direction count.
 
 use super::Way;
@@ -81,10 +84,21 @@ impl Ring {
         y
     }
 
+    /// By the distances of middles, and of the surface.
+    fn rules(&self, o: DVec3) -> [Rule; 2] {
+        let rho = o.truncate().length();
+        let [near, far] = [-1.0, 1.0].map(|side| libm::hypot(rho + side, o.z));
+        // Outside of it the nearest middle is farther than the surface; rounding may say otherwise.
+        let off = (near - self.tube).max(1e-9 * near);
+        let less = (near - off) * (near + off);
+        [Rule { ends: [near, far], less: 0.0 }, Rule { ends: [off, (far * far - less).sqrt()], less }]
+    }
+
     /// A point as it is seen from `o`, for two random numbers; `None`: of the section that was chosen nothing is seen.
     pub(super) fn towards(&self, o: DVec3, u: f64, v: f64) -> Option<DVec3> {
         let from_axis = o.truncate().try_normalize().unwrap_or(DVec2::X);
-        let [near, far] = distances(o);
+        let (rule, u) = if u < 0.5 { (0, 2.0 * u) } else { (1, 2.0 * u - 1.0) };
+        let [near, far] = self.rules(o)[rule].ends;
         let tangent = near / far * libm::tan(PI * (u - 0.5));
         let down = 1.0 / (1.0 + tangent * tangent);
         // Sine and cosine of an angle by the tangent of its half.
@@ -119,18 +133,20 @@ impl Ring {
         if length2 <= self.tube * self.tube {
             return 0.0;
         }
-        let [near, far] = distances(o);
         let middle2 = (o - across.extend(0.0)).length_squared();
         let in_plane2 = (section.to - DVec2::new(q.truncate().length() - 1.0, q.z)).length_squared();
         let distance2 = (o - q).length_squared();
         let spread = 2.0 * libm::asin(self.tube / length2.sqrt());
-        let section = near * far / (TAU * middle2);
+        let of = |rule: Rule| 0.5 * rule.ends[0] * rule.ends[1] / (TAU * (middle2 - rule.less));
+        let section: f64 = self.rules(o).into_iter().map(of).sum();
         section * distance2 * distance2.sqrt() / (in_plane2 * spread * q.truncate().length())
     }
 }
 
-/// Of the nearest and the farthest middle.
-fn distances(o: DVec3) -> [f64; 2] {
-    let rho = o.truncate().length();
-    [-1.0, 1.0].map(|side| ((rho + side) * (rho + side) + o.z * o.z).sqrt())
+/// How sections are chosen.
+struct Rule {
+    /// Distances of the nearest and of the farthest middle, lessened.
+    ends: [f64; 2],
+    /// By how much less squared distances are.
+    less: f64,
 }
