@@ -26,10 +26,10 @@ pub(super) fn of_side(map: &DMat3, middle: f64, slope: f64, half: f64) -> f64 {
 }
 
 /// Of all points at most `tube` away from a circle of radius 1 about the z axis. Normals to the axis and away from it
-/// come in pairs that are the same, with rho = 1 - x and 1 + x: so a piece is as large as one at rho = 1. Summed all the
-/// way round, the growth is an even and periodic function of the other angle, so sums over middles of pieces come near
-/// soon: twice as many pieces each way, until it is the same to 1e-9, or to some 1e-6 of maps that leave nothing of one
-/// direction.
+/// come in pairs that are the same, with rho = 1 - x and 1 + x: so a piece is as large as one at rho = 1. Summed all
+/// the way round, the growth is an even and periodic function of the other angle, so sums over middles of pieces come
+/// near soon: twice as many pieces each way, until it is the same to 1e-9, or to some 1e-6 of maps that leave nothing
+/// of one direction.
 pub(super) fn of_torus(map: &DMat3, tube: f64) -> f64 {
     let with = |pieces: u32| {
         let n = f64::from(pieces);
