@@ -18,7 +18,8 @@ struct Piece {
     to: usize,
 }
 
-/// The tree over all items of these, whose leaves keep what they hold.
+/// The tree over all items of these, whose leaves keep what they hold. Where it would be deeper than a tree may be,
+/// they stay beside each other.
 pub fn interleave(trees: Vec<Vec<BinaryNode>>) -> Vec<BinaryNode> {
     let trees: Vec<_> = trees.into_iter().filter(|nodes| !nodes.is_empty()).collect();
     if trees.len() <= 1 {
