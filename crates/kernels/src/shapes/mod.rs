@@ -240,6 +240,15 @@ impl Row {
         }
     }
 
+    /// Whether no part of its surface stands before another one that faces the same point.
+    fn is_convex(&self) -> bool {
+        match self.kind {
+            UnitShape::CONE => self.parameters[2].to_bits() & CAPS != 0,
+            UnitShape::TORUS | UnitShape::SOLID => false,
+            _ => true,
+        }
+    }
+
     /// Whether a part of it stands between a ray's origin and its end at `t_max`, which lies on it, on a side that
     /// faces the origin; `leaves`: the origin lies on it, too. Where it is convex none does. Asked from the end back:
     /// what starts on the shape is not met where it starts.
@@ -252,8 +261,7 @@ impl Row {
         leaves: bool,
         t_max: f32,
     ) -> bool {
-        let open = self.kind == UnitShape::CONE && self.parameters[2].to_bits() & CAPS == 0;
-        if !open && self.kind != UnitShape::TORUS && self.kind != UnitShape::SOLID {
+        if self.is_convex() {
             return false;
         }
         let [origin, direction] = [origin, direction].map(|v| DVec3::from(v.map(f64::from)));

@@ -53,6 +53,13 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: kernel_units(&["shapes::lamp"]),
     },
     Mutant {
+        name: "rings-do-not-hide-themselves",
+        file: "crates/kernels/src/shapes/mod.rs",
+        find: "UnitShape::TORUS | UnitShape::SOLID => false,",
+        replace: "UnitShape::TORUS | UnitShape::SOLID => true,",
+        caught_by: proofs(&["solids::nothing_shines"]),
+    },
+    Mutant {
         name: "disks-have-no-hole",
         file: "crates/kernels/src/shapes/disk.rs",
         find: "at.dot(at) >= inner * inner",

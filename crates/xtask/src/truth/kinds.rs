@@ -451,7 +451,7 @@ type Kind = (&'static str, fn(&mut World, &mut Random), Relation, bool);
 
 /// All kinds, drawn alike.
 #[rustfmt::skip]
-pub const KINDS: [Kind; 16] = [
+pub const KINDS: [Kind; 17] = [
     ("plain room", plain_room, Relation::Path, false),
     ("casters", casters, Relation::Path, false),
     ("bulbs", bulbs, Relation::Path, false),
@@ -468,6 +468,7 @@ pub const KINDS: [Kind; 16] = [
     ("shells", shells, Relation::Shells, false),
     ("unfolded", unfolded, Relation::Unfolded, false),
     ("flipped", casters, Relation::Flipped, false),
+    ("ring", super::rings::ring, Relation::Path, false),
 ];
 
 /// Whether a pattern lies in the scene's space, whatever is done to what it is on.

@@ -20,6 +20,7 @@ pub mod pairs;
 pub mod receivers;
 pub mod relation;
 mod report;
+mod rings;
 pub mod rooms;
 pub mod shining;
 mod shrink;
