@@ -120,8 +120,10 @@ fn samples_have_their_density() {
                     assert!(whole == 0.0, "{what}: {whole} of nothing");
                     continue;
                 }
-                let open = matches!(unit, UnitShape::Cone { caps: false, .. } | UnitShape::Torus { .. });
-                assert!(open || none < 40, "{what}: {none} samples are lost");
+                let open = matches!(unit, UnitShape::Cone { caps: false, .. });
+                // Of some sections of a torus nothing is seen.
+                let loses = open || matches!(unit, UnitShape::Torus { .. });
+                assert!(loses || none < 40, "{what}: {none} samples are lost");
                 // Three standard errors of the share that is lost, five of the raster, whose points stand for more.
                 let rough = 0.01 + 5.0 * squares.iter().sum::<f64>().sqrt() + if open { 0.025 } else { 0.0 };
                 let expected = 1.0 - none as f64 / f64::from(SAMPLES);
