@@ -363,7 +363,7 @@ class Output(TypedDict, total=False):
     marks: Dict[str, Either[Sequence[Either[float, str]], Array, str]]
 
 
-Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha", "Noise", "PathLength", "Nodes", "Leaves", "Direct", "Indirect", "Samples"]
+Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha", "Noise", "PathLength", "Nodes", "Leaves", "Direct", "Indirect", "Samples", "Motion"]
 
 Matte = Literal["Objects", "Materials"]
 
@@ -816,7 +816,7 @@ class Emissive(TypedDict, total=False):
     """A surface that shines and reflects nothing: whatever shape has it is a light. How much it shines is said by exactly one of `radiance`, `power` and `intensity`, or, as people see it, of `luminance`, `luminous_power` and `luminous_intensity`.
 
     radiance: Radiance L of every point, in all directions. Unit: W/(sr m^2).
-    power: Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`). Unit: W.
+    power: Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`). Not of solids and their parts: nobody knows how much of their surface is left. Unit: W.
     intensity: Radiant intensity of each copy: of `Rectangle`, `Disk` and `Polygon` along the normal, L = I / A, A the area of one side; of `Sphere` L = 4 I / A, the mean over all directions where it was scaled unequally. Other shapes have none. Unit: W/sr.
     luminance: Luminance of every point: 683 times the luminance Y of a radiance. Unit: cd/m^2.
     luminous_power: Luminous flux of each copy, as lamps are sold: 683 Y of a power. Unit: lm.
@@ -1447,7 +1447,7 @@ class _UnionRequired(TypedDict):
 
 
 class Union(_UnionRequired, total=False):
-    """Closed shapes put together to one body: there are no walls inside it, also where they touch. Every surface has the material of the shape that it is of, and its texture coordinates. It cannot shine.
+    """Closed shapes put together to one body: there are no walls inside it, also where they touch. Every surface has the material of the shape that it is of, and its texture coordinates. It may shine, whole or in parts, by `radiance` or `luminance`; light samples find it, photons and light paths do not start on it.
 
     objects: The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Torus`, `Union`, `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each other counted. Where surfaces coincide that of the first shows. Solids that have an end may have a `Plane`, too, which is all of space behind it, as seen from where its normal points.
     material: The material of those shapes in it that have none of their own.
@@ -1469,7 +1469,7 @@ class _IntersectionRequired(TypedDict):
 
 
 class Intersection(_IntersectionRequired, total=False):
-    """What closed shapes have in common: of two balls a lens. Every surface has the material of the shape that it is of, and its texture coordinates. It cannot shine.
+    """What closed shapes have in common: of two balls a lens. Every surface has the material of the shape that it is of, and its texture coordinates. It may shine as a `Union` may.
 
     objects: The shapes, as those of a `Union`. Where surfaces coincide that of the first shows.
     material: The material of those shapes in it that have none of their own.
@@ -1491,7 +1491,7 @@ class _DifferenceRequired(TypedDict):
 
 
 class Difference(_DifferenceRequired, total=False):
-    """The first of several closed shapes without the others: a wall with a window, a bowl. Where it is cut the surface is that of the shape that cuts, with its material, where it has one, and its texture coordinates. It cannot shine.
+    """The first of several closed shapes without the others: a wall with a window, a bowl. Where it is cut the surface is that of the shape that cuts, with its material, where it has one, and its texture coordinates. It may shine as a `Union` may.
 
     objects: The shapes, as those of a `Union`: first what is cut, then what is taken away. Where both have a face in one place, and what is taken away lies behind it, it is gone: no skin is left.
     material: The material of those shapes in it that have none of their own.

@@ -42,7 +42,7 @@ fn first_hit(scene: &Scene, world: &World, [x, y]: [u32; 2]) -> Option<FirstHit>
     let ray = camera::through(camera, *x, *y)?;
     let hit = world.closest(&ray, true)?;
     let s = world.surface(&ray, &hit, Smoothing::Naive);
-    let light = world.light_of(&hit).map(|light| &scene.lights[light]);
+    let light = world.light_of(&hit, &s).map(|light| &scene.lights[light]);
     let albedo = match (light, scene.materials.get(s.material as usize)) {
         (Some(_), _) | (_, None) => DVec3::ZERO,
         (None, Some(material)) => texture::albedo(scene, material.traits().color, &s),

@@ -164,14 +164,13 @@ impl Tracer<'_> {
         let Some(hit) = self.world.closest(&ray, scatterings == 0) else {
             return self.background(ray.direction, scatterings) * self.scene.radiance_unit;
         };
-        if let Some(light) = self.world.light_of(&hit) {
-            let s = self.world.surface(&ray, &hit, self.smoothing);
+        let s = self.world.surface(&ray, &hit, self.smoothing);
+        if let Some(light) = self.world.light_of(&hit, &s) {
             return texture::shine(self.scene, &self.scene.lights[light], &s);
         }
         if scatterings > self.scene.max_bounces {
             return DVec3::ZERO;
         }
-        let s = self.world.surface(&ray, &hit, self.smoothing);
         let wo = -ray.direction;
         match materials::scatter(self.scene, &self.materials, &s, wo, random) {
             Scattered::Nothing => DVec3::ZERO,

@@ -1,5 +1,6 @@
 //! Directions to lights: to spheres uniform in the solid angle that they cover, to flat ones uniform in their area, to
-//! other curved ones uniform in the area of their parts before they were brought to where they are.
+//! other curved ones uniform in the area of their parts before they were brought to where they are, to operands of
+//! solids in the solid angle of a sphere around them.
 
 mod curved;
 
@@ -7,7 +8,8 @@ use crate::random::{Random, about, polar};
 use glam::DVec3;
 use std::f64::consts::TAU;
 use tracer_core::Scene;
-use tracer_core::scene::{FlatLight, Light, Sphere};
+use tracer_core::scene::{CurvedLight, FlatLight, Light, NONE, Sphere};
+use tracer_core::shapes::UnitShape;
 
 /// 1 - cos of the half angle under which a sphere is seen: sin = r/d, so 1 - cos = sin^2 / (1 + cos). From within it is
 /// all around: 2.
@@ -22,12 +24,8 @@ pub fn sample(scene: &Scene, from: DVec3, random: &mut Random) -> DVec3 {
     let (u, v) = (random.number(), random.number());
     let at = |flat: &FlatLight, u: f64, v: f64| flat.corner + u * flat.edges[0] + v * flat.edges[1];
     let point = match light {
-        Light::Sphere { sphere, .. } => {
-            let sphere = &scene.spheres[*sphere as usize];
-            let z = 1.0 - u * one_minus_cos(sphere, from);
-            let axis = (sphere.center - from).try_normalize().unwrap_or(DVec3::Z);
-            return about(axis, polar(z, v));
-        }
+        Light::Sphere { sphere, .. } => return towards(&scene.spheres[*sphere as usize], from, [u, v]),
+        Light::Curved(CurvedLight { unit: UnitShape::Solid(_), .. }) => return towards(&around(light), from, [u, v]),
         Light::Curved(light) => curved::point(light, [random.number(), u, v]),
         Light::Parallelogram(flat) => at(flat, u, v),
         // Turk 1990: the root gives small slices of it as much as large ones.
@@ -36,10 +34,24 @@ pub fn sample(scene: &Scene, from: DVec3, random: &mut Random) -> DVec3 {
     (point - from).normalize()
 }
 
+/// A direction to a sphere, uniform.
+fn towards(sphere: &Sphere, from: DVec3, [u, v]: [f64; 2]) -> DVec3 {
+    let z = 1.0 - u * one_minus_cos(sphere, from);
+    let axis = (sphere.center - from).try_normalize().unwrap_or(DVec3::Z);
+    about(axis, polar(z, v))
+}
+
+/// A sphere around a light.
+fn around(light: &Light) -> Sphere {
+    let (center, radius) = light.bounds(&[]);
+    Sphere { center, radius, material: NONE, object: NONE, copy: 0, light: NONE, coordinates: 0 }
+}
+
 /// The density of [`sample`]: the mean over the lights of what they have alone. What is in the way does not matter.
 pub fn density(scene: &Scene, from: DVec3, direction: DVec3) -> f64 {
     let each = scene.lights.iter().map(|light| match light {
         Light::Sphere { sphere, .. } => of_sphere(&scene.spheres[*sphere as usize], from, direction),
+        Light::Curved(CurvedLight { unit: UnitShape::Solid(_), .. }) => of_sphere(&around(light), from, direction),
         Light::Curved(light) => curved::density(light, from, direction),
         Light::Parallelogram(flat) => of_flat(flat, 1.0, |u, v| u <= 1.0 && v <= 1.0, from, direction),
         Light::Triangle(flat) => of_flat(flat, 0.5, |u, v| u + v <= 1.0, from, direction),

@@ -25,6 +25,8 @@ fn operands<'a>(solids: &'a Solids, solid: &Solid) -> impl Iterator<Item = (u32,
                 material: operand.material,
                 light: NONE,
                 object: 0,
+                copy: 0,
+                is_plain: false,
                 coordinates: operand.coordinates,
             },
         )

@@ -99,11 +99,14 @@ impl World {
         closest.t.is_finite().then_some(closest)
     }
 
-    /// The light that was hit.
-    pub fn light_of(&self, hit: &Hit) -> Option<usize> {
+    /// The light that was hit; `s`: the surface there.
+    pub fn light_of(&self, hit: &Hit, s: &surface::Surface) -> Option<usize> {
         let light = match hit.shape {
             Shape::Sphere(k) => self.spheres[k].light,
-            Shape::Curved(k) => self.curved[k].light,
+            Shape::Curved(k) => match self.curved[k].unit {
+                UnitShape::Solid(_) => self.solids.operands[(s.body - self.first_operand) as usize].light,
+                _ => self.curved[k].light,
+            },
             Shape::Triangle(k) => self.triangles[k].light,
         };
         (light != NONE).then_some(light as usize)

@@ -469,8 +469,9 @@ codes! {
     /// Scene(background: 1, objects: [Difference(objects: [Box(size: 2), Disk(radius: 1)])])
     /// ```
     NO_OPERAND "E0543" "a shape that cannot be part of a solid";
-    /// `Emissive` on a `Plane`, which has no end: nor would its light have one. Or on a `Union`, an `Intersection`, a
-    /// `Difference` or a shape in one: nobody knows how much of its surface is left. All other shapes can shine.
+    /// `Emissive` on a `Plane`, which has no end: nor would its light have one. Or `power`, `intensity`,
+    /// `luminous_power` or `luminous_intensity` of a `Union`, an `Intersection`, a `Difference` or a shape in one:
+    /// nobody knows how much of its surface is left. They shine by `radiance` or `luminance`.
     ///
     /// ```text
     /// Scene(objects: [Plane(material: Emissive(radiance: 5))])

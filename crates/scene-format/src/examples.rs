@@ -97,7 +97,7 @@ pub(crate) const CHOICES: [&EnumDef; 39] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 151] = [
+const SNIPPETS: [(&str, &str, &str); 152] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -141,6 +141,7 @@ const SNIPPETS: [(&str, &str, &str); 151] = [
     ("Layer", "Direct", "layers: [Direct, Indirect]"),
     ("Layer", "Indirect", "layers: [Direct, Indirect]"),
     ("Layer", "Samples", "layers: [Samples]"),
+    ("Layer", "Motion", "layers: [Motion]"),
     ("Matte", "Objects", "cryptomatte: [Objects]"),
     ("Matte", "Materials", "cryptomatte: [Materials]"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),

@@ -1,6 +1,7 @@
 //! From a [`SceneDesc`] back to text, and to a hash that says whether two scenes say the same.
 
-use crate::desc::{CameraChoice, Film, Objects, Scene, SceneDesc};
+use crate::desc::{CameraChoice, Film, Object, Objects, Scene, SceneDesc, group};
+use crate::diagnostic::Spanned;
 use crate::form::{Entry, Form};
 use crate::print;
 use crate::syntax::Syntax;
@@ -37,6 +38,11 @@ pub fn to_text(scene: &SceneDesc, syntax: Syntax, defaults: Defaults) -> String 
 }
 
 pub(crate) fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
+    form_with(scene, scene.objects.clone(), defaults)
+}
+
+/// A scene with these objects in place of its own.
+fn form_with(scene: &SceneDesc, objects: Vec<Spanned<Object>>, defaults: Defaults) -> Form {
     let words = Scene {
         include: crate::read::Includes,
         vars: crate::read::Vars,
@@ -52,7 +58,7 @@ pub(crate) fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
         lights: scene.lights.clone(),
         textures: scene.textures.clone(),
         materials: scene.materials.clone(),
-        objects: Objects(scene.objects.clone()),
+        objects: Objects(objects),
     };
     let mut form = words.form(defaults == Defaults::Shown);
     if let Form::Struct { fields, .. } = &mut form {
@@ -75,12 +81,15 @@ pub(crate) fn form(scene: &SceneDesc, defaults: Defaults) -> Form {
 pub fn hash(scene: &SceneDesc) -> [u8; 32] {
     let mut hasher = Sha256::new();
     hasher.update(b"tracer scene 1");
-    feed(&mut hasher, &form(scene, Defaults::Hidden));
+    feed_scene(&mut hasher, scene);
     if scene.moves() {
         // Two ways to move that agree here are the same for all practical purposes.
         for k in 0..8 {
             let later = scene.at(scene.camera.shutter.value * (f64::from(k) + 0.5) / 8.0);
-            feed(&mut hasher, &later.map_or(Form::Absent, |later| form(&later, Defaults::Hidden)));
+            match later {
+                Ok(later) => feed_scene(&mut hasher, &later),
+                Err(_) => feed(&mut hasher, &Form::Absent),
+            }
         }
     }
     hasher.finalize().into()
@@ -91,13 +100,26 @@ pub fn hash_hex(scene: &SceneDesc) -> String {
     hash(scene).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
+/// Feeds a scene as [`feed`] feeds its form, but for the objects, of which there may be millions, one at a time.
+fn feed_scene(hasher: &mut Sha256, scene: &SceneDesc) {
+    let bare = form_with(scene, Vec::new(), Defaults::Hidden);
+    let Form::Struct { name, fields } = &bare else { return feed(hasher, &bare) };
+    // The objects are the last field; where there are none it is not written.
+    let has_objects = !scene.objects.is_empty();
+    tagged(hasher, b'(', name.as_bytes());
+    tagged(hasher, b'#', &((fields.len() + usize::from(has_objects)) as u64).to_le_bytes());
+    feed_fields(hasher, &fields.iter().collect::<Vec<&Entry>>());
+    if has_objects {
+        feed(hasher, &Form::Text("objects".to_owned()));
+        let entries = group::entries(&scene.objects);
+        tagged(hasher, b'[', &(entries.clone().count() as u64).to_le_bytes());
+        entries.for_each(|entry| feed(hasher, &group::form_of_entry(entry, false)));
+    }
+}
+
 /// Feeds a value: a tag for its kind, its length where it has one, its content.
 fn feed(hasher: &mut Sha256, form: &Form) {
-    let mut tagged = |tag: u8, bytes: &[u8]| {
-        hasher.update([tag]);
-        hasher.update((bytes.len() as u64).to_le_bytes());
-        hasher.update(bytes);
-    };
+    let mut tagged = |tag: u8, bytes: &[u8]| tagged(hasher, tag, bytes);
     match form {
         Form::Absent => tagged(b'-', &[]),
         Form::Bool(value) => tagged(b'b', &[u8::from(*value)]),
@@ -130,6 +152,12 @@ fn feed(hasher: &mut Sha256, form: &Form) {
             feed(hasher, content.as_deref().unwrap_or(&Form::Absent));
         }
     }
+}
+
+fn tagged(hasher: &mut Sha256, tag: u8, bytes: &[u8]) {
+    hasher.update([tag]);
+    hasher.update((bytes.len() as u64).to_le_bytes());
+    hasher.update(bytes);
 }
 
 fn feed_fields(hasher: &mut Sha256, fields: &[&Entry]) {

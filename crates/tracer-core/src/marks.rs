@@ -1,11 +1,11 @@
 //! Where points of a scene are in its picture, and whether they are seen: for labels that are laid over it.
 
 use crate::engine::{RenderOptions, Unobserved, render};
-use crate::scene::{Camera, Filter, FisheyeMapping, Projection, Scene};
+use crate::scene::{Camera, Filter, Projection, Scene};
 use glam::DVec3;
 use scene_format::SceneDesc;
-use std::f64::consts::PI;
 use tracer_kernels::layers::{Layer, LayerSet};
+use tracer_kernels::scene::Seen;
 
 /// One of two eyes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,10 +77,9 @@ pub fn marks(scene: &mut Scene, desc: &SceneDesc) -> Vec<MarkSeen> {
     let of = |(mark, eye): (&scene_format::desc::Mark, Option<Eye>)| {
         let point = scene.frame.point(DVec3::from(mark.point.value));
         let size = scene.size.map(f64::from);
-        let Seen { of_eye, whole, beside } = Seen::by(&scene.camera, eye, point);
-        let place = place(&of_eye, point).filter(|_| beside);
-        let within = place.is_some_and(|place| place.iter().all(|x| x.abs() <= 1.0));
-        let pixel = place.map(whole).map(|[x, y]| [(x + 1.0) / 2.0 * size[0], (1.0 - y) / 2.0 * size[1]]);
+        let Seen { of_eye, in_half, in_whole } = scene.camera.sees(eye.map_or(0.0, Eye::side), point);
+        let within = in_half.is_some_and(|place| place.iter().all(|x| x.abs() <= 1.0));
+        let pixel = in_whole.map(|[x, y]| [(x + 1.0) / 2.0 * size[0], (1.0 - y) / 2.0 * size[1]]);
         let depth = depth(&of_eye, point);
         let seen = within && depth >= scene.camera.near && is_free(scene, &of_eye, point);
         MarkSeen { name: mark.name.value.clone(), eye, pixel, depth: depth / scene.frame.scale, seen }
@@ -91,80 +90,12 @@ pub fn marks(scene: &mut Scene, desc: &SceneDesc) -> Vec<MarkSeen> {
     seen
 }
 
-/// How an eye sees a point.
-struct Seen<F> {
-    /// The camera, as if it were the only eye.
-    of_eye: Camera,
-    /// From a place in its picture to that in the whole.
-    whole: F,
-    /// The point does not lie between the eyes of a panorama, where none of them sees it.
-    beside: bool,
-}
-
-impl Seen<()> {
-    fn by(camera: &Camera, eye: Option<Eye>, point: DVec3) -> Seen<impl Fn([f64; 2]) -> [f64; 2] + use<>> {
-        let stereo = camera.stereo.zip(eye).map(|(stereo, eye)| (stereo, eye.side()));
-        let (mut of_eye, mut beside) = (Camera { stereo: None, ..*camera }, true);
-        if let Some((stereo, side)) = stereo {
-            let Camera { eye, forward, right, .. } = *camera;
-            let across = right.normalize();
-            let aside = side * stereo.aside;
-            let [x, z] = [across, forward].map(|axis| (point - eye).dot(axis));
-            of_eye.eye += match camera.projection {
-                // The ray touches the circle of the eyes: `across` turned by its longitude.
-                Projection::Panorama => {
-                    let level = libm::hypot(x, z);
-                    beside = level > stereo.aside;
-                    let longitude = libm::atan2(x, z) - libm::asin((aside / level.max(1e-300)).clamp(-1.0, 1.0));
-                    aside * (libm::cos(longitude) * across - libm::sin(longitude) * forward)
-                }
-                _ => aside * across,
-            };
-            if let Projection::Perspective { shift, .. } = &mut of_eye.projection {
-                shift[0] -= side * stereo.inwards;
-            }
-        }
-        let whole = move |place| stereo.map_or(place, |(stereo, side)| stereo.in_whole(side, place));
-        Seen { of_eye, whole, beside }
-    }
-}
-
 /// In render units.
 fn depth(camera: &Camera, point: DVec3) -> f64 {
     let away = point - camera.eye;
     match camera.projection {
         Projection::Perspective { .. } | Projection::Orthographic => away.dot(camera.forward),
         Projection::Panorama | Projection::Fisheye { .. } => away.length(),
-    }
-}
-
-/// The place in the picture that shows a point, from -1 to 1 to the right and upwards; the lens' middle is the eye.
-fn place(camera: &Camera, point: DVec3) -> Option<[f64; 2]> {
-    let Camera { forward, right, up, .. } = *camera;
-    let away = point - camera.eye;
-    let along = away.dot(forward);
-    let [x, y] = [right, up].map(|axis| away.dot(axis) / axis.length_squared());
-    match camera.projection {
-        Projection::Perspective { shift, .. } => (along > 0.0).then(|| [x / along - shift[0], y / along - shift[1]]),
-        Projection::Orthographic => (along > 0.0).then_some([x, y]),
-        Projection::Panorama => {
-            let level = libm::sqrt(x * x + along * along);
-            (away != DVec3::ZERO).then(|| [libm::atan2(x, along) / PI, libm::atan2(y, level) * 2.0 / PI])
-        }
-        Projection::Fisheye { mapping, scale } => {
-            let across = away - along * forward;
-            let angle = libm::atan2(across.length(), along);
-            let r = match mapping {
-                FisheyeMapping::Equidistant => angle,
-                FisheyeMapping::Equisolid => libm::sin(angle / 2.0),
-                FisheyeMapping::Stereographic => libm::tan(angle / 2.0),
-                // Behind the eye the sine would come back.
-                FisheyeMapping::Orthographic if along < 0.0 => f64::INFINITY,
-                FisheyeMapping::Orthographic => libm::sin(angle),
-            } / scale;
-            let towards = across.try_normalize().unwrap_or(DVec3::ZERO) * r;
-            (r < 1.0).then(|| [right, up].map(|axis| towards.dot(axis) / axis.length_squared()))
-        }
     }
 }
 

@@ -96,6 +96,11 @@ pub trait Moments: Send + Sync {
     /// # Errors
     /// What is wrong with it then.
     fn at(&self, part: f64) -> Result<Scene, Diagnostics>;
+
+    /// Which part of a frame the shutter is open, above 0: what moves is told per frame ([`Layer::Motion`]).
+    fn shutter(&self) -> f64 {
+        1.0
+    }
 }
 
 /// When a sample index sees the scene: a part, from 0 to 1, of the time that the shutter is open. Each run of 2^k of
@@ -206,7 +211,7 @@ macro_rules! words {
 
 words!(
     Albedo, Normal, Depth, Position, Uv, Emission, ObjectId, MaterialId, Variance, Alpha, Noise, PathLength, Nodes,
-    Leaves, Direct, Indirect, Samples
+    Leaves, Direct, Indirect, Samples, Motion
 );
 
 #[cfg(test)]

@@ -281,7 +281,7 @@ fn the_tree_finds_what_brute_force_finds() {
     let placed = |random: &mut Random, unit: UnitShape| {
         let mut placement = map(random, 0.3);
         placement.translation = random.cube();
-        Shape { unit, placement, material: 0, light: NONE, object: 0, coordinates: 0 }
+        Shape { unit, placement, material: 0, light: NONE, object: 0, copy: 0, is_plain: false, coordinates: 0 }
     };
     let shapes: Vec<Shape> = (0..90).map(|k| placed(&mut random, SHAPES[k % SHAPES.len()])).collect();
     let geometry_of = |shape: &Shape| {

@@ -30,6 +30,7 @@ pub fn measure(scene: &mut Scene) {
     let points = (ALL_POINTS / count.max(1)).clamp(4, MOST_POINTS);
     let of_light = |k: usize| match [glow.texture[k], glow.covered[k]] {
         [0, 0] => 1.0,
+        _ if !scene.lights[k].is_drawn() => 1.0,
         _ => share(scene, k, points) as f32,
     };
     glow.share = (0..count).into_par_iter().map(of_light).collect();

@@ -9,7 +9,7 @@ use super::stages::surface::{Surface, surface};
 use crate::lanes::{ArrayF, ArrayU, Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::{Pair, Purpose};
-use crate::scene::Scene;
+use crate::scene::{NONE, Scene};
 
 type One = ArrayF<1>;
 
@@ -246,7 +246,9 @@ impl<'s> Vertex<'s> {
         let s = &self.surface;
         let choice = lights::choose(lights, Receiver { p: s.start, n: s.ns }, c(u), c(v));
         let [u, v] = draw.points(Purpose::Light(draw.vertex));
-        let l = lights::sample(lights, &choice, s.start, c(u), c(v), One::first(1));
+        let on = if self.ray.instance == NONE { self.ray.primitive } else { NONE };
+        let from = lights::Start { p: s.start, on: ArrayU::splat(on), parts: &self.scene.tables.shapes.parts };
+        let l = lights::sample(lights, &choice, from, c(u), c(v), One::first(1));
         let mut radiance = l.radiance;
         if lights.glow.is_some() {
             let on_lamp = One::first(1) & !choice.environment;

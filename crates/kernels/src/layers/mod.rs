@@ -15,6 +15,7 @@ mod emission;
 mod indirect;
 mod leaves;
 mod material_id;
+mod motion;
 mod nodes;
 mod noise;
 mod normal;
@@ -237,6 +238,8 @@ layers! {
     Indirect: indirect::Indirect,
     /// See [`samples`].
     Samples: samples::Samples,
+    /// See [`motion`].
+    Motion: motion::Motion,
 }
 
 /// A set of layers, for a rendering's options; it goes through them in the order in which files have them.

@@ -2,6 +2,7 @@
 //! place of them.
 
 use super::{NONE, Scene};
+use crate::shapes::{Solid, UnitShape};
 
 /// Where the lights of a scene lie as surfaces, and how much of their light is there on average. Columns, index =
 /// light.
@@ -59,7 +60,13 @@ impl Scene {
             tell(sphere.light, sphere.material, id, NONE);
         }
         for (id, shape) in (self.spheres.len() as u32..).zip(self.shapes.iter()) {
-            tell(shape.light, shape.material, id, NONE);
+            match shape.unit {
+                UnitShape::Solid(Solid { operands: [first, count], .. }) => {
+                    let operands = self.solids.operands.iter().skip(first as usize).take(count as usize);
+                    operands.for_each(|operand| tell(operand.light, operand.material, id, NONE));
+                }
+                _ => tell(shape.light, shape.material, id, NONE),
+            }
         }
         let (first, triangles) = (self.tables.loose(), &self.triangles);
         for (number, instance) in (0..).zip(self.instances.iter()) {

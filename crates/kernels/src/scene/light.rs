@@ -42,12 +42,13 @@ pub struct FlatLight {
     pub offset: f64,
 }
 
-/// A curved shape that shines, in render space.
+/// A curved shape that shines, in render space; of a solid an operand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvedLight {
     /// Index into `Scene::shapes`.
     pub shape: u32,
-    /// What it is in its object space.
+    /// What it is in its object space; a solid with one operand: the one that shines, with the bounds of what may be
+    /// left of it.
     pub unit: UnitShape,
     /// From there to render space.
     pub placement: DAffine3,
@@ -134,7 +135,12 @@ impl Light {
         }
     }
 
-    /// Its area, of one side. `spheres`: those of the scene.
+    /// Whether points of it can be drawn, for photons and light paths to start from: not of what is left of an operand.
+    pub fn is_drawn(&self) -> bool {
+        self.curved().is_none_or(|curved| !matches!(curved.unit, UnitShape::Solid(_)))
+    }
+
+    /// Its area, of one side; of an operand that of a sphere about it. `spheres`: those of the scene.
     pub fn area(&self, spheres: &[Sphere]) -> f64 {
         let spanned = |flat: &FlatLight| flat.edges[0].cross(flat.edges[1]).length();
         match self {
@@ -153,6 +159,10 @@ impl Light {
         let (corners, count) = match self {
             Light::Sphere { sphere, .. } => {
                 return spheres.get(*sphere as usize).map_or((DVec3::ZERO, 0.0), |s| (s.center, s.radius));
+            }
+            Light::Curved(CurvedLight { unit: UnitShape::Solid(solid), .. }) => {
+                let [low, high] = solid.bounds;
+                return (0.5 * (low + high), 0.5 * (high - low).length());
             }
             Light::Curved(curved) => return (curved.placement.translation, curved.unit.radius(&curved.placement)),
             Light::Parallelogram(FlatLight { corner, edges: [a, b], .. }) => {

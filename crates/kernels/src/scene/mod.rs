@@ -15,8 +15,10 @@ mod light;
 pub mod materials;
 mod mesh;
 mod met;
+mod motion;
 mod occluders;
 mod pattern;
+mod place;
 mod plane;
 mod program;
 mod shape;
@@ -37,11 +39,13 @@ pub use materials::{ConductorTable, GGX_STEPS, LEAST_ALPHA, LEAST_EXPONENT, Lobe
 pub use mesh::InstanceTable;
 pub use mesh::{Instance, Mesh, Triangles};
 pub use met::{CameraSees, Met};
+pub use motion::{End, Ends};
 pub use occluders::OccluderTable;
 pub use pattern::{
     GradientAxis, NoiseKind, Pattern, PatternKey, PatternKind, PatternTable, Space, VoronoiFeature, Written,
 };
 pub(crate) use pattern::{STRIDE, kind as pattern_kind, voronoi_feature};
+pub use place::Seen;
 pub use plane::{Plane, PlaneTable};
 pub use program::{Between, Made, Op, PLACES, Program};
 pub use shape::{Operand, Shape, Solids, Step};
@@ -154,6 +158,8 @@ pub struct Scene {
     pub second_boxes: Option<crate::bvh::SecondBoxes>,
     /// All of that, where it is little.
     pub occluders: Option<Arc<OccluderTable>>,
+    /// It as the shutter opens and closes, where something moves and a layer is to tell how.
+    pub ends: Option<Arc<Ends>>,
 }
 
 impl Scene {

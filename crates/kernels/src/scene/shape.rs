@@ -17,6 +17,10 @@ pub struct Shape {
     pub light: u32,
     /// Its object's place in the scene.
     pub object: u32,
+    /// Which of its object's copies it is.
+    pub copy: u32,
+    /// It is where its own fields put it, by no transform.
+    pub is_plain: bool,
     /// Which coordinates it is written in, where a pattern asks (`Scene::to_object`); 0 the world's.
     pub coordinates: u32,
 }
@@ -50,6 +54,8 @@ pub struct Operand {
     pub placement: DAffine3,
     /// Index into `Scene::materials`.
     pub material: u32,
+    /// Its light in `Scene::lights`, or [`NONE`](super::NONE).
+    pub light: u32,
     /// As [`Shape::coordinates`].
     pub coordinates: u32,
 }
@@ -80,6 +86,8 @@ pub struct OperandRow {
     pub row: Row,
     /// Its material.
     pub material: u32,
+    /// Its light + 1, or 0.
+    pub light: u32,
 }
 
 /// Shapes as the engine reads them: index = primitive id less the number of spheres.
@@ -89,7 +97,7 @@ pub struct ShapeTable {
     pub rows: Vec<Row>,
     /// Their materials.
     pub material: Vec<u32>,
-    /// Their lights + 1, or 0; empty where none shines.
+    /// Their lights + 1, or 0; empty where none shines, no operand either.
     pub light: Vec<u32>,
     /// The parts of all solids.
     pub parts: Vec<Part>,
@@ -105,8 +113,10 @@ impl ShapeTable {
         let of = |operand: &Operand| OperandRow {
             row: Row::new(&operand.unit, &operand.placement),
             material: operand.material,
+            light: operand.light.wrapping_add(1),
         };
-        let shines = shapes.iter().any(|shape| shape.light != super::NONE);
+        let shines = shapes.iter().any(|shape| shape.light != super::NONE)
+            || solids.operands.iter().any(|operand| operand.light != super::NONE);
         let lights = shapes.iter().filter(|_| shines).map(|shape| shape.light.wrapping_add(1));
         ShapeTable {
             parts: solids.parts.clone(),

@@ -25,6 +25,8 @@ pub struct Sphere {
     pub material: u32,
     /// Its object's place in the scene; of lamps that are none the number of objects and their own place.
     pub object: u32,
+    /// Which of its object's copies it is.
+    pub copy: u32,
     /// Index into `Scene::lights`; [`super::NONE`] for an object.
     pub light: u32,
     /// Which coordinates it is written in, where a pattern asks (`Scene::to_object`); 0 the world's.

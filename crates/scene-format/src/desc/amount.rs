@@ -35,6 +35,17 @@ pub enum Radiometric {
 }
 
 impl Amount {
+    /// Where it is said of a whole lamp: the word, and that which says the like of each point.
+    pub fn of_whole(&self) -> Option<(&'static str, &'static str)> {
+        match self {
+            Amount::Radiance(_) | Amount::Luminance(_) => None,
+            Amount::Intensity(_) => Some(("intensity", "radiance")),
+            Amount::Power(_) => Some(("power", "radiance")),
+            Amount::LuminousIntensity(_) => Some(("luminous_intensity", "luminance")),
+            Amount::LuminousPower(_) => Some(("luminous_power", "luminance")),
+        }
+    }
+
     /// The amount times `color` / Y(`color`), Y = 0.2126 R + 0.7152 G + 0.0722 B; photometric ones are 683 lm/W Y.
     pub fn radiometric(&self, color: Color) -> Radiometric {
         // Beside the largest channel, so that none is too small to be divided by.

@@ -93,28 +93,30 @@ impl Words for Objects {
     }
 
     fn form(&self, all: bool) -> Form {
-        let mut entries = Vec::with_capacity(self.0.len());
-        let mut rest = self.0.as_slice();
-        while let Some(first) = rest.first() {
-            // What stands in the same groups is written in the same groups.
-            let of =
-                |object: &Spanned<Object>| object.value.placements().within().map(|within| Arc::clone(&within.groups));
-            let groups = of(first);
-            let same = |other: &&Spanned<Object>| match (&groups, of(other)) {
-                (Some(groups), Some(others)) => Arc::ptr_eq(groups, &others),
-                _ => false,
-            };
-            let count = rest.iter().take_while(same).count().max(1);
-            let (these, others) = rest.split_at(count);
-            rest = others;
-            let mut forms: Vec<Form> = these.iter().map(|object| object.value.form(all)).collect();
-            for group in groups.iter().flat_map(|groups| groups.outwards()) {
-                forms = vec![grouped(forms, group, all)];
-            }
-            entries.extend(forms.into_iter().map(|form| Entry::new("", form)));
-        }
-        Form::List(entries)
+        Form::list(entries(&self.0).map(|entry| form_of_entry(entry, all)))
     }
+}
+
+/// The entries of a list that these objects are written as: what stands in the same groups is written in the same
+/// groups, all else by itself.
+pub(crate) fn entries(objects: &[Spanned<Object>]) -> impl Iterator<Item = &[Spanned<Object>]> + Clone {
+    let within = |object: &Spanned<Object>| object.value.placements().within().map(|within| Arc::clone(&within.groups));
+    let is_same = move |one: &Spanned<Object>, other: &Spanned<Object>| match (within(one), within(other)) {
+        (Some(groups), Some(others)) => Arc::ptr_eq(&groups, &others),
+        _ => false,
+    };
+    objects.chunk_by(is_same)
+}
+
+/// One of [`entries`].
+pub(crate) fn form_of_entry(objects: &[Spanned<Object>], all: bool) -> Form {
+    let groups = objects.first().and_then(|object| object.value.placements().within()).map(|within| &within.groups);
+    let mut forms: Vec<Form> = objects.iter().map(|object| object.value.form(all)).collect();
+    for group in groups.into_iter().flat_map(|groups| groups.outwards()) {
+        forms = vec![grouped(forms, group, all)];
+    }
+    // What stands in no group is alone.
+    forms.pop().unwrap_or(Form::Absent)
 }
 
 /// The words of a group with these objects.

@@ -58,7 +58,7 @@ pub use materials::{
 pub use moments::Moments;
 pub(crate) use moments::Texts;
 pub use name::Name;
-pub use object::{Faulty, Object, cannot_shine, solid_cannot_shine, with_operands};
+pub use object::{Faulty, Object, cannot_shine, no_power_of_solid, with_operands};
 pub(crate) use object::{ShapeWords, no_length};
 pub use output::{Layer, Mark, MaskName, Matte, Output};
 pub use per_axis::PerAxis;

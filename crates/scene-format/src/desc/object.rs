@@ -4,7 +4,7 @@ use super::shapes::{
     Arrow, Capsule, Cone, Cylinder, Difference, Disk, Extrude, HeightField, Intersection, Lathe, Mesh, Operands,
     Placements, Plane, Polygon, RectBox, Rectangle, Sphere, Torus, Tube, Union,
 };
-use super::{MaterialRef, Name, Transform, Vec3};
+use super::{Emissive, MaterialRef, Name, Transform, Vec3};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Span, Spanned};
 use crate::path::{dot, sub};
@@ -54,11 +54,17 @@ pub fn cannot_shine(what: &str, at: Span) -> Diagnostic {
         .hint("take a large `Rectangle` instead, or light from all directions: `background`")
 }
 
-/// The diagnostic of a solid, or of a part of one, that is to shine, with its article.
-pub fn solid_cannot_shine(what: &str, at: Span) -> Diagnostic {
-    Diagnostic::error(codes::NO_LIGHT, at, format!("{what} cannot shine"))
-        .expected("`Emissive` on a shape that stands by itself: of one in a solid nobody knows how much is left")
-        .hint("let the lamp be an object of its own, beside the solid or in a hollow of it")
+/// The diagnostic of a solid, or of a part of one, with its article, that shines by an amount for the whole lamp.
+pub fn no_power_of_solid(what: &str, emissive: &Emissive, object: Span) -> Option<Diagnostic> {
+    let (name, other) = emissive.amount.value.of_whole()?;
+    let span = emissive.amount.span;
+    let message = format!("`{name}` is of a whole lamp, and of {what} nobody knows how much surface is left");
+    let fault = Diagnostic::error(codes::NO_LIGHT, if span == Span::NONE { object } else { span }, message);
+    Some(
+        fault
+            .expected(format!("`{other}`, which each point has"))
+            .hint(format!("write `{other}` in place of `{name}`")),
+    )
 }
 
 /// The choice between shapes, one line each, and what is the same for all of them.
@@ -218,7 +224,7 @@ impl Object {
     }
 
     /// The shapes that it is made of, to be changed.
-    pub(crate) fn operands_mut(&mut self) -> Option<&mut Operands> {
+    pub fn operands_mut(&mut self) -> Option<&mut Operands> {
         match self {
             Object::Union(solid) => Some(&mut solid.objects),
             Object::Intersection(solid) => Some(&mut solid.objects),

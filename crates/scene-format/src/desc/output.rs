@@ -127,6 +127,11 @@ scene_words! {
         /// Samples that the pixel has: as many as `render.samples` asks for, fewer here and there where the rendering
         /// was ended early.
         Samples,
+        /// How far what is seen moves in the picture within a frame, in pixels to the right and downwards, as fast as
+        /// it does on average while `camera.shutter` is open: the mean over the samples that hit something. Zero where
+        /// none does, and where nothing moves while the shutter is open. `shutter: 0.01` tells it and blurs next to
+        /// nothing.
+        Motion,
     }
 }
 

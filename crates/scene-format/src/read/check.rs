@@ -126,8 +126,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     Some(Whole { scene, camera: chosen, moves })
 }
 
-/// Whether an object is to shine by a material that it has itself, or one of the shapes that it is made of is: that
-/// these cannot is another fault.
+/// Whether an object shines by a material that it has itself, or one of the shapes that it is made of does.
 fn shines(object: &Object) -> bool {
     let own = match object.material() {
         MaterialRef::Inline(material) => material.value.shines().is_some(),

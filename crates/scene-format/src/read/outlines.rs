@@ -151,7 +151,8 @@ fn no_intensity(object: &Object, intense: &HashSet<&str>) -> Option<Diagnostic> 
         MaterialRef::Inline(_) | MaterialRef::Default => return None,
     };
     let has = matches!(object, Object::Sphere(_) | Object::Rectangle(_) | Object::Disk(_) | Object::Polygon(_));
-    (!has).then(|| {
+    // Solids have a fault of their own.
+    (!has && object.operands().is_none()).then(|| {
         Diagnostic::error(codes::NO_USE, span, "only a sphere, a rectangle, a disk and a polygon shine by an intensity")
             .expected("`radiance`, `power`, `luminance` or `luminous_power`")
     })

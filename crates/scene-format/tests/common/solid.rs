@@ -2,15 +2,31 @@
 
 use super::Random;
 use super::generated::{length, name, transforms, vector};
-use scene_format::desc::{Capsule, Difference, Intersection, MaterialRef, Object, Operands, Placements, Sphere, Union};
+use scene_format::desc::{
+    Amount, Capsule, Difference, Emissive, Intersection, LightGroup, Material, MaterialRef, Object, Operands,
+    Placements, Sphere, Union,
+};
+
+/// None of its own, or one that shines by what each point has.
+fn own_material(random: &mut Random) -> MaterialRef {
+    if random.below(3) > 0 {
+        return MaterialRef::Default;
+    }
+    let emissive = Emissive {
+        amount: Amount::Radiance([length(random); 3]).into(),
+        color: [1.0; 3].into(),
+        two_sided: random.below(2) == 0,
+        group: LightGroup::default(),
+    };
+    MaterialRef::Inline(Box::new(Material::Emissive(Box::new(emissive)).into()))
+}
 
 /// A solid of closed shapes, solids among them.
 pub fn solid(random: &mut Random, placements: Placements, depth: usize) -> Object {
-    // Others may shine, which solids cannot.
-    let material = MaterialRef::Default;
+    let material = own_material(random);
     let count = 1 + random.below(3);
     let part = |random: &mut Random| {
-        let material = MaterialRef::Default;
+        let material = own_material(random);
         match random.below(3) {
             0 if depth > 0 => solid(random, Placements::One, depth - 1),
             1 => Object::Capsule(Box::new(Capsule {

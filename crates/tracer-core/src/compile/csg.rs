@@ -10,10 +10,12 @@ use super::materials::MaterialBuilder;
 use super::placing::{Given, Maps, Subject, check, place, place_all};
 use super::settled::Settled;
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
-use scene_format::desc::{MaterialRef, Object, solid_cannot_shine};
+use scene_format::desc::{Emissive, MaterialRef, Object, Radiometric, no_power_of_solid};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
-use tracer_kernels::scene::{Frame, NONE, Operand, Shape, Solids, Step};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use tracer_kernels::scene::{CurvedLight, Frame, Light, NONE, Operand, Shape, Solids, Step};
 use tracer_kernels::shapes::csg::{Operation, Part, Surface};
 use tracer_kernels::shapes::{Solid, UnitShape};
 
@@ -33,6 +35,8 @@ struct OperandWritten {
     /// From there to where it is in the solid, before the solid's transforms.
     moved: DAffine3,
     material: u32,
+    /// How it shines, where it does.
+    emissive: Option<Arc<Emissive>>,
 }
 
 /// A surface of an operand, in the space that the solid is written in.
@@ -57,6 +61,24 @@ pub struct SolidObject {
 
 /// Lower and upper corner.
 type Box3 = [DVec3; 2];
+
+/// The lights that solids are added to.
+pub struct Lit<'a> {
+    /// Those of the scene.
+    pub lights: &'a mut Vec<Light>,
+    /// The unit of their radiance.
+    pub radiance_unit: f64,
+    /// The groups of the lights of solids that have one.
+    pub groups: &'a mut BTreeMap<u32, String>,
+}
+
+/// What a material shines; nothing where it says that of a whole lamp, which is told before.
+fn radiance(emissive: &Emissive) -> [f64; 3] {
+    match emissive.radiometric() {
+        Radiometric::Radiance(radiance) => radiance,
+        Radiometric::Intensity(_) | Radiometric::Power(_) => [0.0; 3],
+    }
+}
 
 /// Surfaces of solids that a scene may have, those of copies counted: 2 GB.
 const MOST_ROWS: usize = 1 << 24;
@@ -129,20 +151,15 @@ pub fn noun(object: &Object) -> &'static str {
     }
 }
 
-/// The fault of a solid, or of a shape in one, that is to shine by this material.
-fn shining(object: &Spanned<Object>, material: &MaterialRef) -> Diagnostic {
+/// The fault of a solid, or of a shape in one, that shines by an amount for all of it.
+fn amount_of_whole(object: &Spanned<Object>, emissive: &Emissive) -> Option<Diagnostic> {
     let what = match &object.value {
         Object::Union(_) => "a union",
         Object::Intersection(_) => "an intersection",
         Object::Difference(_) => "a difference",
         _ => "a part of a solid",
     };
-    let at = match material {
-        MaterialRef::Inline(material) => material.span,
-        MaterialRef::Named { span, .. } => *span,
-        MaterialRef::Default => Span::NONE,
-    };
-    solid_cannot_shine(what, if at == Span::NONE { object.span } else { at })
+    no_power_of_solid(what, emissive, object.span)
 }
 
 /// What reads the parts of a solid.
@@ -165,9 +182,14 @@ impl Nodes<'_, '_> {
             MaterialRef::Default => inherited,
             own => {
                 let material = self.builder.resolve_as(own, || format!("{path}.material"), self.diagnostics);
-                if self.builder.emissive(material).is_some() {
-                    self.diagnostics.push(shining(object, own));
-                }
+                let emissive = self.builder.emissive(material);
+                let fault = emissive.and_then(|emissive| amount_of_whole(object, emissive));
+                // One mistake may be that of many shapes.
+                let is_told = |fault: &Diagnostic| {
+                    self.diagnostics.iter().any(|other| (other.code, other.span) == (fault.code, fault.span))
+                };
+                let fault = fault.filter(|fault| !is_told(fault));
+                self.diagnostics.extend(fault);
                 Some(material)
             }
         };
@@ -199,7 +221,8 @@ impl Nodes<'_, '_> {
         let material = material.unwrap_or_else(|| self.builder.default_material());
         let reach = |map: &DAffine3, axis: usize| unit.bounds(&(*map * local)).map(|corner| corner[axis]);
         let moved = self.map_of(object, noun, local, local.translation, &reach);
-        operands.push(OperandWritten { unit, local, moved, material });
+        let emissive = self.builder.emissive(material).cloned();
+        operands.push(OperandWritten { unit, local, moved, material, emissive });
         Node::Operand(index)
     }
 
@@ -463,16 +486,35 @@ impl SolidObject {
         })
     }
 
-    /// Adds its copies to the shapes of the scene. `written`, where a pattern asks for it: from the coordinates that
-    /// things are written in to the world, the first the world's own.
+    /// Whether an operand shines.
+    pub fn shines(&self) -> bool {
+        self.operands.iter().any(|operand| operand.emissive.is_some())
+    }
+
+    /// A box around a copy.
+    pub fn extent(&self, map: &DAffine3) -> Extent {
+        Extent::of_box(bounds(&self.node, &self.operands, &DAffine3::IDENTITY), map)
+    }
+
+    /// What its operands shine that do, in the scene's own unit, and where the first says it; `None`: none does.
+    pub fn radiances(&self) -> Option<(Vec<[f64; 3]>, Span)> {
+        let shines = || self.operands.iter().filter_map(|operand| operand.emissive.as_ref());
+        let first = shines().next()?;
+        Some((shines().map(|emissive| radiance(emissive)).collect(), first.amount.span))
+            .filter(|_| !self.maps.is_empty())
+    }
+
+    /// Adds its copies to the shapes of the scene, and its operands that shine to the lights. `written`, where a
+    /// pattern asks for it: from the coordinates that things are written in to the world, the first the world's own.
     pub fn build(
         &self,
         frame: &Frame,
         shapes: &mut Vec<Shape>,
         solids: &mut Solids,
+        lit: &mut Lit<'_>,
         mut written: Option<&mut Vec<DAffine3>>,
     ) {
-        for map in &self.maps {
+        for (copy, map) in (0..).zip(&self.maps) {
             let scaled = |map: DAffine3| DAffine3 {
                 matrix3: map.matrix3 * frame.scale,
                 translation: frame.point(map.translation),
@@ -490,21 +532,59 @@ impl SolidObject {
                     unit: operand.unit,
                     placement,
                     material: operand.material,
+                    light: NONE,
                     coordinates,
                 });
             }
             self.steps(&self.node, &|map_in: &DAffine3| scaled(*map * *map_in), first[2], solids);
             let count = |list: usize, first: u32| [first, list as u32 - first];
             let [low, high] = bounds(&self.node, &self.operands, map).map(|corner| frame.point(corner));
-            let unit = UnitShape::Solid(Solid {
+            let solid = Solid {
                 parts: count(solids.parts.len(), first[0]),
                 steps: count(solids.steps.len(), first[1]),
                 operands: count(solids.operands.len(), first[2]),
                 bounds: [low.min(high), low.max(high)],
-            });
+            };
+            self.shine(frame, map, (&solid, shapes.len() as u32), &mut solids.operands, lit);
+            let unit = UnitShape::Solid(solid);
             let material = self.operands.first().map_or(0, |operand| operand.material);
             let (placement, object) = (DAffine3::IDENTITY, self.number);
-            shapes.push(Shape { unit, placement, material, light: NONE, object, coordinates: 0 });
+            let (light, is_plain) = (NONE, false);
+            shapes.push(Shape { unit, placement, material, light, object, copy, is_plain, coordinates: 0 });
+        }
+    }
+
+    /// Adds the lights of a copy, a solid that is the shape of this number.
+    fn shine(
+        &self,
+        frame: &Frame,
+        map: &DAffine3,
+        (solid, shape): (&Solid, u32),
+        all: &mut [Operand],
+        lit: &mut Lit<'_>,
+    ) {
+        for (index, operand) in (solid.operands[0]..).zip(&self.operands) {
+            let Some(emissive) = &operand.emissive else { continue };
+            // What is left of it lies in its own box, and in that of the solid.
+            let whole = *map * operand.moved * operand.local;
+            let [low, high] = if operand.unit.is_endless() { behind(&whole) } else { operand.unit.bounds(&whole) };
+            let [a, b] = [low, high].map(|corner| frame.point(corner));
+            let [low, high] = [a.min(b).max(solid.bounds[0]), a.max(b).min(solid.bounds[1])];
+            if !low.cmple(high).all() {
+                continue;
+            }
+            let own = Solid { operands: [index, 1], bounds: [low, high], ..*solid };
+            let light = lit.lights.len() as u32;
+            all[index as usize].light = light;
+            lit.lights.push(Light::Curved(CurvedLight {
+                shape,
+                unit: UnitShape::Solid(own),
+                placement: DAffine3::IDENTITY,
+                radiance: radiance(emissive).map(|x| x / lit.radiance_unit),
+                two_sided: emissive.two_sided,
+                offset: 0.0,
+            }));
+            lit.groups.extend(emissive.group.as_str().map(|group| (light, group.to_owned())));
         }
     }
 

@@ -265,7 +265,7 @@ impl Curved {
     ) {
         let radiances = self.radiances();
         let from_written = self.local.as_ref().map(|local| local.inverse());
-        for (copy, map) in self.maps.iter().enumerate() {
+        for (copy, map) in (0..).zip(&self.maps) {
             let mut coordinates = 0;
             if let (Some(written), Some(from_written)) = (written.as_mut(), &from_written) {
                 coordinates = written.len() as u32;
@@ -274,19 +274,20 @@ impl Curved {
             let (material, object) = (self.material, self.number);
             let two_sided = self.emissive.as_ref().is_some_and(|emissive| emissive.two_sided);
             if let Some((center, radius)) = self.ball(map) {
-                let light = radiances.get(copy).map_or(NONE, |&radiance| light(radiance, two_sided));
+                let light = radiances.get(copy as usize).map_or(NONE, |&radiance| light(radiance, two_sided));
                 let (center, radius) = (frame.point(center), frame.length(radius));
-                spheres.push(Sphere { center, radius, material, object, light, coordinates });
+                spheres.push(Sphere { center, radius, material, object, copy, light, coordinates });
             } else {
                 let placement =
                     DAffine3 { matrix3: map.matrix3 * frame.scale, translation: frame.point(map.translation) };
                 let (unit, shape) = (self.unit, shapes.len() as u32);
                 let mut light = NONE;
-                if let Some(&radiance) = radiances.get(copy) {
+                if let Some(&radiance) = radiances.get(copy as usize) {
                     light = lamps.len() as u32;
                     lamps.push(CurvedLight { shape, unit, placement, radiance, two_sided, offset: 0.0 });
                 }
-                shapes.push(Shape { unit, placement, material, light, object, coordinates });
+                let is_plain = self.local.is_none();
+                shapes.push(Shape { unit, placement, material, light, object, copy, is_plain, coordinates });
             }
         }
     }

@@ -2,14 +2,16 @@
 
 use super::meshes::Assigned;
 use super::radiances;
-use scene_format::desc::{Albedo, Background, Emissive, Integrator, Light, Material, MaterialRef, Radiometric};
-use scene_format::diagnostic::Span;
+use scene_format::desc::{
+    Albedo, Background, Emissive, Integrator, Light, Material, MaterialRef, Object, Radiometric, with_operands,
+};
+use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Warns of each lamp that gives no light, or, where there is no other light, of all of them at once. That a scene has
 /// no lamps at all the reader has told, as far as not only the files of meshes could tell.
-pub fn warn(desc: &SceneDesc, assigned: &Assigned, diagnostics: &mut Diagnostics) {
+pub fn warn<'d>(desc: &'d SceneDesc, assigned: &Assigned, diagnostics: &mut Diagnostics) {
     if matches!(desc.render.integrator, Integrator::AmbientOcclusion { .. }) {
         return;
     }
@@ -30,14 +32,17 @@ pub fn warn(desc: &SceneDesc, assigned: &Assigned, diagnostics: &mut Diagnostics
         let is_dark = radiances::of_light(sphere) == [0.0; 3];
         lamp(is_dark, sphere.amount.span, light.span, &|| format!("lights[{index}]"));
     }
-    for (index, object) in desc.objects.iter().enumerate() {
-        let (material, name) = match object.value.material() {
+    let parts = |(index, object): (usize, &'d Spanned<Object>)| {
+        with_operands(std::slice::from_ref(object)).map(move |part| (index, object.span, &part.value))
+    };
+    for (index, span, object) in desc.objects.iter().enumerate().flat_map(parts) {
+        let (material, name) = match object.material() {
             MaterialRef::Default => continue,
             MaterialRef::Inline(material) => (Some(&material.value), None),
             MaterialRef::Named { name, .. } => (materials.get(&**name).copied(), Some(name)),
         };
         let Some(emissive) = material.and_then(Material::shines) else { continue };
-        lamp(is_dark(emissive), emissive.amount.span, object.span, &|| match name {
+        lamp(is_dark(emissive), emissive.amount.span, span, &|| match name {
             Some(name) => format!("the material \"{name}\""),
             None => format!("the material of objects[{index}]"),
         });

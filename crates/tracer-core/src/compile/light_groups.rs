@@ -2,19 +2,24 @@
 
 use crate::scene::LightGroups;
 use scene_format::SceneDesc;
-use scene_format::desc::{Emissive, Light, LightGroup, Material, MaterialRef};
+use scene_format::desc::{Emissive, Light, LightGroup, Material, MaterialRef, with_operands};
 use std::collections::{BTreeMap, BTreeSet};
 use tracer_kernels::scene::{Integrator, NONE, Scene};
+use tracer_kernels::shapes::{Solid, UnitShape};
 
-/// The groups of a scene's lights. A picture that is of no light has none.
-pub(super) fn of(desc: &SceneDesc, scene: &Scene) -> LightGroups {
+/// The groups of a scene's lights; `of_solids`: of those that are parts of solids. A picture that is of no light has
+/// none.
+pub(super) fn of(desc: &SceneDesc, scene: &Scene, of_solids: &BTreeMap<u32, String>) -> LightGroups {
     if matches!(scene.integrator, Integrator::AmbientOcclusion { .. }) {
         return LightGroups::default();
     }
     let named: BTreeMap<&str, &Emissive> =
         desc.materials.iter().filter_map(|named| Some((&*named.name.value, named.material.shines()?))).collect();
-    let of_objects = of_lights(scene).into_iter().map(|object| group_of(desc, &named, object));
-    let groups: Vec<Option<&str>> = of_objects.collect();
+    let of_lights = (0..).zip(of_lights(scene)).map(|(light, object)| {
+        let is_solid = desc.objects.get(object as usize).is_some_and(|object| object.value.operands().is_some());
+        if is_solid { of_solids.get(&light).map(String::as_str) } else { group_of(desc, &named, object) }
+    });
+    let groups: Vec<Option<&str>> = of_lights.collect();
     let of_background = desc.background.environment().and_then(|environment| environment.group.as_str());
     let background = scene.is_open().then_some(of_background);
 
@@ -36,7 +41,7 @@ pub fn most_light_groups(desc: &SceneDesc) -> usize {
         return 0;
     }
     let of_material = |material: &'_ Material| Some(material.shines()?.group.clone());
-    let inline = desc.objects.iter().filter_map(|object| match object.value.material() {
+    let inline = with_operands(&desc.objects).filter_map(|object| match object.value.material() {
         MaterialRef::Inline(material) => of_material(&material.value),
         _ => None,
     });
@@ -62,7 +67,15 @@ fn of_lights(scene: &Scene) -> Vec<u32> {
         }
     };
     scene.spheres.iter().for_each(|sphere| note(sphere.light, sphere.object));
-    scene.shapes.iter().for_each(|shape| note(shape.light, shape.object));
+    for shape in &*scene.shapes {
+        match shape.unit {
+            UnitShape::Solid(Solid { operands: [first, count], .. }) => {
+                let operands = scene.solids.operands.iter().skip(first as usize).take(count as usize);
+                operands.for_each(|operand| note(operand.light, shape.object));
+            }
+            _ => note(shape.light, shape.object),
+        }
+    }
     for instance in scene.instances.iter() {
         let mesh = scene.meshes[instance.mesh as usize];
         let triangles = mesh.first_triangle as usize..(mesh.first_triangle + mesh.triangle_count) as usize;

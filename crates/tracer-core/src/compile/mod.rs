@@ -54,7 +54,7 @@ use scene_format::codes;
 use scene_format::desc::{Acceleration, Caustics, Integrator, Reuse};
 use scene_format::diagnostic::{Source, Span, keep_first, say_where_included};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, Severity, desc};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -228,7 +228,7 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     let camera = camera::camera(desc, &frame);
     unmeant::far_view(desc, &camera, &frame, &mut diagnostics);
     let mesh_radiances = meshes::radiances(&loaded, &placed, &assigned);
-    let shining = radiances::of_objects(desc, &curved, &mesh_radiances);
+    let shining = radiances::of_objects(desc, (&curved, &solid_objects), &mesh_radiances);
     let behind = background.brightest();
     let radiance_unit = like.radiance_unit.unwrap_or_else(|| radiances::unit(desc, &shining, behind));
     diagnostics.extend(radiances::too_dark(desc, &shining, behind, radiance_unit));
@@ -243,11 +243,12 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
     let solid = patterns.iter().any(|pattern| pattern.space != Space::Uv) || programs.iter().any(Program::is_solid);
     let mut written = solid.then(|| vec![DAffine3::IDENTITY]);
     let (spheres, mut shapes, mut lights) = curved_and_lights(desc, &frame, radiance_unit, curved, written.as_mut());
-    let mut solids = Solids::default();
+    let (mut solids, mut solid_groups) = (Solids::default(), BTreeMap::new());
+    let mut lit = csg::Lit { lights: &mut lights, radiance_unit, groups: &mut solid_groups };
     // What has no end stays behind them.
     let mut endless = shapes.split_off(shapes.partition_point(|shape| !shape.unit.is_endless()));
     for object in &solid_objects {
-        object.build(&frame, &mut shapes, &mut solids, written.as_mut());
+        object.build(&frame, &mut shapes, &mut solids, &mut lit, written.as_mut());
     }
     shapes.append(&mut endless);
     let parts = meshes::Parts {
@@ -351,10 +352,11 @@ fn compile_like(desc: &SceneDesc, sources: &Sources<'_>, like: Like) -> Result<S
         second_boxes: hierarchy.map(|accel| *accel.second_boxes()),
         occluders: hierarchy.filter(|_| full).and_then(|accel| OccluderTable::new(accel, OCCLUDERS)).map(Arc::new),
         acceleration: way,
+        ends: None,
     };
     tracer_kernels::engine::glow::measure(&mut rendered);
     diagnostics.extend(out_of_view::warning(desc, &rendered));
-    let light_groups = desc.output.light_groups.then(|| light_groups::of(desc, &rendered));
+    let light_groups = desc.output.light_groups.then(|| light_groups::of(desc, &rendered, &solid_groups));
     Ok(Scene {
         rendered,
         light_groups,
@@ -424,7 +426,7 @@ fn curved_and_lights(
         let desc::Light::SphereLight(light) = &light.value;
         let index = shine(radiances::of_light(light), true);
         let (center, radius) = (frame.point(DVec3::from(light.center.value)), frame.length(light.radius.value));
-        spheres.push(Sphere { center, radius, material: NONE, object, light: index, coordinates: 0 });
+        spheres.push(Sphere { center, radius, material: NONE, object, copy: 0, light: index, coordinates: 0 });
     }
     SphereTable::order(&mut spheres);
     // Behind those that hang in the tree.

@@ -94,6 +94,10 @@ impl OfTexts {
 }
 
 impl Moments for OfTexts {
+    fn shutter(&self) -> f64 {
+        self.desc.camera.shutter.value
+    }
+
     fn at(&self, part: f64) -> Result<Scene, Diagnostics> {
         let share = part * self.desc.camera.shutter.value;
         self.compile(share, Some(self.radiance_unit)).map_err(|error| error.diagnostics)

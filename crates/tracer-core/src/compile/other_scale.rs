@@ -1,7 +1,7 @@
 //! Numbers that are surely meant on another scale: radians where degrees stand, light as a colour in bytes, an
 //! exposure in other units.
 
-use scene_format::desc::{Albedo, Amount, Color, Light, Material, MaterialRef, Projection, Transform};
+use scene_format::desc::{Albedo, Amount, Color, Light, Material, MaterialRef, Projection, Transform, with_operands};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::f64::consts::PI;
@@ -97,7 +97,7 @@ fn lights(desc: &SceneDesc) -> impl Iterator<Item = (&Spanned<Amount>, Color)> {
             (&shines.amount, color)
         })
     }
-    let inline = desc.objects.iter().filter_map(|object| match object.value.material() {
+    let inline = with_operands(&desc.objects).filter_map(|object| match object.value.material() {
         MaterialRef::Inline(material) => of_material(&material.value),
         _ => None,
     });

@@ -1,5 +1,6 @@
 //! How bright lamps and background are, and the unit that this is measured in.
 
+use super::csg::SolidObject;
 use super::curved::Curved;
 use super::polygonal::polygonal;
 use scene_format::Diagnostic;
@@ -28,7 +29,11 @@ pub(super) struct Shining {
 
 /// What the objects shine that do, in the order of the scene. `meshes`: what copies of objects of triangles shine, by
 /// object.
-pub(super) fn of_objects(desc: &SceneDesc, curved: &[Curved], meshes: &[Vec<[f64; 3]>]) -> Vec<Shining> {
+pub(super) fn of_objects(
+    desc: &SceneDesc,
+    (curved, solids): (&[Curved], &[SolidObject]),
+    meshes: &[Vec<[f64; 3]>],
+) -> Vec<Shining> {
     let sum = |radiance: &&[f64; 3]| radiance.iter().sum::<f64>();
     let shining = |copies: &[[f64; 3]], span: Span| {
         let brightest = copies.iter().max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
@@ -39,9 +44,13 @@ pub(super) fn of_objects(desc: &SceneDesc, curved: &[Curved], meshes: &[Vec<[f64
         let emissive = object.emissive.as_ref()?;
         Some((object.number, shining(&object.radiances(), emissive.amount.span)?))
     });
+    let of_solids = solids.iter().filter_map(|object| {
+        let (radiances, span) = object.radiances()?;
+        Some((object.number, shining(&radiances, span)?))
+    });
     let of_meshes = polygonal(desc).zip(meshes);
     let of_meshes = of_meshes.filter_map(|(object, copies)| Some((object.number, shining(copies, object.span)?)));
-    let mut all: Vec<(u32, Shining)> = of_curved.chain(of_meshes).collect();
+    let mut all: Vec<(u32, Shining)> = of_curved.chain(of_solids).chain(of_meshes).collect();
     all.sort_by_key(|(number, _)| *number);
     all.into_iter().map(|(_, shining)| shining).collect()
 }

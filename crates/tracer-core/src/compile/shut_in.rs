@@ -175,8 +175,12 @@ fn find<'a>(desc: &'a SceneDesc, made: &Made<'a>) -> Found<'a> {
                 found.bodies.extend(maps.map(|map| (Body::Unit(&curved.unit, map), index)));
             }
         } else if let Some(solid) = solids.next_if(|solid| solid.number() == number) {
-            let maps = solid.maps().iter().take(MOST_COPIES).filter(|_| opaque);
-            for map in maps {
+            let maps = solid.maps().iter().take(MOST_COPIES);
+            if solid.shines() {
+                found.has_more_lamps |= solid.maps().len() > MOST_COPIES;
+                found.lamps.extend(maps.clone().map(|map| lamp(solid.extent(map))));
+            }
+            for map in maps.filter(|_| opaque) {
                 found.bodies.push((Body::Solid(solid, map), index));
                 let hollows = solid.hollows(map).into_iter();
                 found.bodies.extend(hollows.map(|hollow| (Body::Hollow(Box::new(hollow)), index)));

@@ -1,5 +1,5 @@
 //! A scene in which something moves while the shutter is open: each sample index sees a scene of its own, and is a pass
-//! of its own. One of them is in memory at a time.
+//! of its own. One of them is in memory at a time, and what is to tell how things move of two more.
 //!
 //! Techniques are planned anew for each, since what they know of lights and surfaces is of that scene. Only what takes
 //! long and need not be exact is handed on ([`Technique::hand_on`](super::technique::Technique::hand_on)): guides.
@@ -12,7 +12,10 @@ use crate::scene::Scene;
 use scene_format::Diagnostics;
 use std::any::Any;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use tracer_kernels::engine::kernels::Kernels;
+use tracer_kernels::layers::Layer;
+use tracer_kernels::scene::{End, Ends};
 
 /// What techniques hand on, by the light group that they are of and by their names.
 #[derive(Default)]
@@ -41,6 +44,17 @@ impl Handed {
 /// The scene as a sample index sees it; this one where nothing moves.
 pub(super) fn seen(scene: &Scene, film: &Film, sample: u32) -> Option<Result<Scene, Diagnostics>> {
     scene.at_sample(sample, film.seed())
+}
+
+/// The scene as the shutter opens and as it closes, where the film tells how things move.
+fn ends(scene: &Scene, film: &Film) -> Result<Option<Arc<Ends>>, Diagnostics> {
+    if !film.layers().iter().any(|layer| layer == Layer::Motion) {
+        return Ok(None);
+    }
+    let at = |part: f64| scene.at(part).transpose();
+    let (Some(open), Some(close)) = (at(0.0)?, at(1.0)?) else { return Ok(None) };
+    let shutter = scene.moments.as_ref().map_or(1.0, |moments| moments.shutter());
+    Ok(Some(Arc::new(Ends { scenes: [End::new(&open), End::new(&close)], shutter })))
 }
 
 /// What the techniques of a sample index are handed by those before, made as it was then.
@@ -88,17 +102,27 @@ pub(super) fn go_on(scene: &Scene, kernels: &Kernels, mut film: Film, mut work: 
             return Ok(film);
         }
     };
+    let ends = match ends(scene, &film) {
+        Ok(ends) => ends,
+        Err(faults) => {
+            film.fault = Some(faults);
+            return Ok(film);
+        }
+    };
     let mut passes = Passes::new(film.whole, work.samples, 1).planned(work.plan);
     while !work.goals.are_met(&film)
         && let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end))
     {
-        let now = match seen(scene, &film, pass.start).transpose() {
+        let mut now = match seen(scene, &film, pass.start).transpose() {
             Ok(now) => now,
             Err(faults) => {
                 film.fault = Some(faults);
                 break;
             }
         };
+        if let Some(now) = &mut now {
+            now.rendered.ends.clone_from(&ends);
+        }
         let now = now.as_ref().unwrap_or(scene);
         let (engine, lit) = (Engine::new(now, kernels), lit(now, &film));
         let mut painter = painter(engine, &lit, work.options, &film, work.samples, work.pool, work.observer);

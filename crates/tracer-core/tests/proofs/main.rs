@@ -46,6 +46,7 @@ mod sequence;
 mod shared_roulette;
 mod shining;
 mod shining_curved;
+mod shining_solids;
 mod solids;
 mod support;
 mod surfaces;

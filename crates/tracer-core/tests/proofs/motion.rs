@@ -8,7 +8,9 @@ use scene_format::{LoadError, SceneDesc, Syntax, load_str};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
-use tracer_core::{Crop, Film, Level, Observer, Part, Progress, RenderOptions, Scene, Unobserved, render, resume};
+use tracer_core::{
+    Crop, Film, Layer, LayerSet, Level, Observer, Part, Progress, RenderOptions, Scene, Unobserved, render, resume,
+};
 
 fn read(text: &str) -> SceneDesc {
     match load_str("motion", text, Syntax::Ron, Path::new(""), &[]) {
@@ -206,4 +208,211 @@ fn the_unit_is_that_of_the_brightest_time() {
     let film = film(&scene, 64, 1);
     let mean = film.radiance(3, 3)[0];
     assert!((mean - 500.0).abs() < 10.0, "{mean}");
+}
+
+/// The layer of motion: width, and both numbers of each pixel.
+fn told(desc: &SceneDesc, samples: u32) -> (usize, Vec<[f64; 2]>) {
+    let layers = Some(LayerSet::from_iter([Layer::Motion]));
+    let options = RenderOptions { layers, samples: Some(samples), threads: 1, ..RenderOptions::default() };
+    let film = render(&compiled(desc), &options, &Unobserved);
+    let values = film.layer(Layer::Motion).expect("it is asked for").values;
+    let pixels = values.as_chunks::<2>().0.iter().map(|v| v.map(f64::from)).collect();
+    (desc.image.width.value as usize, pixels)
+}
+
+/// Things that move without turning, of every kind that a hit may be of: parallel rays, 8 pixels to a unit; a unit to
+/// the right and half a unit up in a frame, and the camera a quarter down.
+#[test]
+fn motion_of_all_kinds_is_told_in_pixels_a_frame() {
+    let move_it = "transform: [Translate((\"=time\", \"=time/2\", 0))]";
+    for thing in [
+        "Sphere(center: (\"=time\", \"=time/2\", 0), radius: 1)".to_owned(),
+        format!("Sphere(center: (0, 0, 0), radius: 1, {})", move_it.replace('[', "[Scale((1, 0.5, 1)), ")),
+        format!("Cylinder(from: (-1, 0, 0), to: (1, 0.5, 0), radius: 0.4, {move_it})"),
+        format!("Torus(center: (0, 0, 0), axis: (0.2, 0.3, 1), radius: 0.8, tube_radius: 0.3, {move_it})"),
+        format!("Box(center: (0, 0, 0), size: 1.5, {move_it})"),
+        format!(
+            "Difference(objects: [Box(size: 1.5), Sphere(center: (0.5, 0, 0.5), radius: 0.6, \
+             transform: [Scale(1.1)])], {move_it})"
+        ),
+        "Difference(objects: [Box(center: (\"=time\", \"=time/2\", 0), size: 1.5), \
+         Sphere(center: (\"=0.5 + time\", \"=time/2\", 0.5), radius: 0.6)])"
+            .to_owned(),
+        "Mesh(file: \"icosphere.obj\", placements: [[Translate((\"=time\", \"=time/2\", 0))], \
+         [Translate((\"=2 + time\", \"=time/2\", -1))]])"
+            .to_owned(),
+        "Mesh(points: [(\"=time - 1\", \"=time/2\", 0), (\"=time + 1\", \"=time/2\", 0), \
+         (\"=time\", \"=1 + time/2\", 0)], faces: [[0, 1, 2]])"
+            .to_owned(),
+        "Rectangle(center: (\"=time\", \"=time/2\", 0), normal: (0.3, 0, 1), size: 1.5, \
+         material: Emissive(radiance: 1))"
+            .to_owned(),
+        "Plane(point: (\"=time\", \"=time/2\", 0), normal: (0, 1, 1))".to_owned(),
+    ] {
+        let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../golden/assets");
+        let text = format!(
+            r#"Scene(
+            animation: Animation(fps: 1), image: Image(width: 48, height: 32), render: Render(max_bounces: 0),
+            background: 1, camera: Camera(position: (0, "=-time/4", 5), look_at: (0, "=-time/4", 0), shutter: 0.25,
+            projection: Orthographic(height: 4)), objects: [{thing}])"#
+        );
+        let desc = match load_str("motion", &text, Syntax::Ron, &assets, &[]) {
+            Ok(loaded) => loaded.scene,
+            Err(error) => panic!("{error}\n{text}"),
+        };
+        let (_, pixels) = told(&desc, 8);
+        let moving: Vec<_> = pixels.iter().filter(|v| **v != [0.0; 2]).collect();
+        assert!(moving.len() > 50, "{thing}: {} pixels move", moving.len());
+        for v in moving {
+            assert!((v[0] - 8.0).abs() < 2e-3 && (v[1] + 6.0).abs() < 2e-3, "{thing}: {v:?}");
+        }
+    }
+}
+
+/// Of what turns about the view axis by an angle w a frame a point at p moves by w x p; of what comes nearer by v, a
+/// point at p (from the middle, in pixels) at the depth z by p v / z. A shutter of a hundredth tells it to a hundredth.
+#[test]
+fn motion_of_what_turns_and_of_what_comes_near() {
+    let view = |camera: &str, thing: &str| {
+        read(&format!(
+            "Scene(animation: Animation(fps: 1), image: Image(width: 32, height: 32), background: 1, \
+             effects: Effects(antialiasing: None), render: Render(max_bounces: 0), \
+             camera: Camera(position: (0, 0, 5), look_at: (0, 0, 0), shutter: 0.01, {camera}), objects: [{thing}])"
+        ))
+    };
+    let turning = "Rectangle(normal: (0, 0, 1), size: 9, \
+                   transform: [Rotate(axis: (0, 0, 1), degrees: \"=90*time\")])";
+    let coming = "Rectangle(center: (0, 0, \"=0.5*time\"), normal: (0, 0, 1), size: 9)";
+    let by_hand = |what: &str, desc: &SceneDesc, expected: &dyn Fn([f64; 2]) -> [f64; 2]| {
+        let (width, pixels) = told(desc, 8);
+        for (k, found) in pixels.iter().enumerate() {
+            let at = [(k % width) as f64 + 0.5 - 16.0, (k / width) as f64 + 0.5 - 16.0];
+            let expected = expected(at);
+            let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+            assert!(off < 0.02 * (1.0 + expected[0].hypot(expected[1])), "{what} {at:?}: {found:?}, not {expected:?}");
+        }
+    };
+    let w = std::f64::consts::FRAC_PI_2;
+    // Counter-clockwise, y downwards.
+    by_hand("turning", &view("projection: Orthographic(height: 4)", turning), &|[x, y]| [w * y, -w * x]);
+    by_hand("coming", &view("fov: 40", coming), &|[x, y]| [0.1 * x, 0.1 * y]);
+    // The same to the right half as to the left one.
+    let stereo = view("fov: 40, stereo: Stereo(separation: 0.0001)", coming);
+    let (width, pixels) = told(&stereo, 8);
+    for (k, found) in pixels.iter().enumerate() {
+        let at = [(k % width % 16) as f64 + 0.5 - 8.0, (k / width) as f64 + 0.5 - 16.0];
+        assert!((found[0] - 0.1 * at[0]).abs() < 0.02 && (found[1] - 0.1 * at[1]).abs() < 0.04, "{at:?}: {found:?}");
+    }
+}
+
+/// What passes behind the eye of a panorama moves a little to the other edge, and not through the whole picture; what
+/// does not move, in a scene that does, has no motion, and what has no shutter none at all.
+#[test]
+fn motion_round_about_and_of_what_stands_still() {
+    let view = |shutter: f64, thing: &str| {
+        read(&format!(
+            "Scene(animation: Animation(frames: 2, fps: 1), image: Image(width: 64, height: 32), background: 1, \
+             render: Render(max_bounces: 0), camera: Camera(position: (0, 0, 0), look_at: (0, 0, -1), \
+             shutter: {shutter}, projection: Panorama), objects: [{thing}])"
+        ))
+    };
+    let behind = "Sphere(center: (\"=0.3 - 0.6*time\", 0, 3), radius: 1)";
+    let still = "Sphere(center: (0, 0, -3), radius: 1)";
+    let (width, pixels) = told(&view(1.0, &format!("{behind}, {still}")), 8);
+    let moving: Vec<usize> = (0..pixels.len()).filter(|&k| pixels[k] != [0.0; 2]).collect();
+    assert!(moving.iter().any(|k| k % width == 0) && moving.iter().any(|k| k % width == 63));
+    assert!(moving.iter().all(|k| (k % width).abs_diff(32) > 20), "what stands still moves");
+    // 0.6 at the distance of two is 0.3 radians at most, of 64 pixels for a turn; to the right, as seen from behind.
+    assert!(moving.iter().all(|&k| (1.0..3.5).contains(&pixels[k][0])), "{:?}", pixels[moving[0]]);
+    let (_, pixels) = told(&view(0.0, &format!("{behind}, {still}")), 8);
+    assert!(pixels.iter().all(|v| *v == [0.0; 2]));
+}
+
+/// Things of all kinds beside each other: of each pixel's own point what its thing does with it.
+/// Balls that a turn makes shapes while the shutter is open, copies of which some turn, balls that grow past what
+/// orders them, a pendulum that passes the vertical, meshes behind spheres and shapes, solids. Points are told by the
+/// layer of positions of a picture whose shutter is hardly open.
+#[test]
+fn motion_of_things_beside_each_other() {
+    let many: String = (0..30)
+        .map(|k| format!("Sphere(center: ({}, -1.6, 0.5), radius: {}),", -2.0 + 0.13 * f64::from(k), 0.05))
+        .collect();
+    let view = |objects: &str| {
+        read(&format!(
+            "Scene(animation: Animation(fps: 1), image: Image(width: 64, height: 48), background: 1, \
+             effects: Effects(antialiasing: None), render: Render(max_bounces: 0), \
+             camera: Camera(position: (0, 0, 6), look_at: (0, 0, 0), fov: 40, shutter: 0.01), \
+             lights: [SphereLight(center: (0, 9, 9), radius: 1, radiance: 3)], objects: [{objects}])"
+        ))
+    };
+    let told = |desc: &SceneDesc| {
+        let layers = Some(LayerSet::from_iter([Layer::Motion, Layer::Position, Layer::ObjectId]));
+        let options = RenderOptions { layers, samples: Some(1), threads: 1, ..RenderOptions::default() };
+        let film = render(&compiled(desc), &options, &Unobserved);
+        [Layer::Motion, Layer::Position, Layer::ObjectId]
+            .map(|layer| film.layer(layer).expect("it is asked for").values)
+    };
+    // Pixels to a unit at the depth of one.
+    let focal = 24.0 / 20.0f64.to_radians().tan();
+    let shown = |p: [f64; 3]| [focal * p[0] / (6.0 - p[2]), -focal * p[1] / (6.0 - p[2])];
+    let check = |what: &str, objects: &str, number: f32, least: usize, speed: &dyn Fn([f64; 3]) -> [f64; 3]| {
+        let [motion, position, object] = told(&view(objects));
+        let mut count = 0;
+        for (k, _) in object.iter().enumerate().filter(|(_, of)| **of == number) {
+            let p = [0, 1, 2].map(|c| f64::from(position[3 * k + c]));
+            let v = speed(p);
+            let step = 1e-4;
+            let (from, to) = (shown(p), shown([0, 1, 2].map(|c| p[c] + step * v[c])));
+            let expected = [0, 1].map(|c| (to[c] - from[c]) / step);
+            let found = [0, 1].map(|c| f64::from(motion[2 * k + c]));
+            let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+            // A hundredth of a frame bends ways by some hundredths.
+            assert!(
+                off < 0.03 * (1.0 + expected[0].hypot(expected[1])),
+                "{what}, pixel {k} at {p:?}: {found:?}, not {expected:?}"
+            );
+            count += 1;
+        }
+        assert!(count >= least, "{what}: {count} pixels");
+    };
+    let (ball, still) =
+        ("Sphere(center: (-1, 0, 0), radius: 0.8, transform: [TURN])", "Box(center: (1, 0, 0), size: 1)");
+    let turn = "Rotate(axis: (0, 1, 0), degrees: \"=90*time\", about: (-1, 0, 0))";
+    let w = std::f64::consts::FRAC_PI_2;
+    let turning = format!("{}, {still}", ball.replace("TURN", turn));
+    // About the vertical: w x (p - m).
+    check("a turning ball", &turning, 1.0, 60, &|p| [w * p[2], 0.0, -w * (p[0] + 1.0)]);
+    check("beside it", &turning, 2.0, 60, &|_| [0.0; 3]);
+    let copies = format!(
+        "Sphere(center: (0, 0, 0), radius: 0.7, placements: [[Translate((-1.2, 0, 0))], \
+         [Rotate(axis: (0, 0, 1), degrees: \"=90*time\"), Translate((1.2, 0, 0))], \
+         [Translate((0, \"=1.2 + time\", 0))]]), {many}"
+    );
+    check("copies", &copies, 1.0, 60, &|p| match p {
+        [x, y, _] if x > 0.4 && y < 0.6 => [-w * y, w * (x - 1.2), 0.0],
+        [x, y, _] if y > 0.6 && x.abs() < 0.6 => [0.0, 1.0, 0.0],
+        _ => [0.0; 3],
+    });
+    let growing = format!(
+        "Sphere(center: (0, 0, 0), radius: \"=0.7 + time\"), \
+         Sphere(center: (1.6, 0, 0), radius: \"=0.5 + time\"), {many}"
+    );
+    check("balls that grow", &growing, 1.0, 60, &|p| p.map(|x| x / 0.7));
+    check("balls that grow", &growing, 2.0, 60, &|p| [(p[0] - 1.6) / 0.5, p[1] / 0.5, p[2] / 0.5]);
+    let pendulum =
+        format!("Cylinder(from: (0, 1.5, 0), to: (\"=0.005 - time\", -1.5, 0), radius: 0.3, caps: false), {many}");
+    check("a pendulum", &pendulum, 1.0, 60, &|p| [-(1.5 - p[1]) / 3.0, 0.0, 0.0]);
+    let meshes = format!(
+        "{many} Cylinder(radius: 0.1, to: (0, 0.2, 0)), Box(center: (-1, 0, 0), size: 1, \
+         transform: [Rotate(axis: (0, 0, 1), degrees: \"=90*time\", about: (-1, 0, 0))]), \
+         Rectangle(center: (1, 0, \"=time\"), normal: (0, 0, 1), size: 1.2)"
+    );
+    check("a box among others", &meshes, 32.0, 60, &|p| [-w * p[1], w * (p[0] + 1.0), 0.0]);
+    check("a rectangle among others", &meshes, 33.0, 60, &|_| [0.0, 0.0, 1.0]);
+    let solids = format!(
+        "{many} Union(objects: [Box(center: (-1, 0, 0), size: 0.5)]), \
+         Difference(objects: [Box(size: 1), Sphere(center: (0, 0, 0.5), radius: 0.3)], \
+         transform: [Translate((1, 0, 0))], placements: [[], [Translate((0, \"=1.2 + time\", 0))]])"
+    );
+    check("solids", &solids, 32.0, 60, &|p| if p[1] > 0.6 { [0.0, 1.0, 0.0] } else { [0.0; 3] });
 }

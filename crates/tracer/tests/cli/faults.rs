@@ -559,12 +559,17 @@ fn materials_of_many_files_are_told_once() {
     assert!(ran.err.contains("not supported: `Pr`; the same goes for 4 more mesh files"), "{}", ran.err);
 }
 
-/// That a part of a solid cannot shine is one fault: whether the scene has light is not asked then.
+/// A part of a solid that shines is a light. By what nobody knows of it is one fault: whether the scene has light is
+/// not asked then.
 #[test]
 fn a_shining_part_of_a_solid_is_one_fault() {
     let sandbox = Sandbox::new();
     let lamp = "Difference(objects: [Box(size: 2, material: Emissive(radiance: 3)), Box(size: 1)])";
     sandbox.write("lamp.ron", format!("Scene(objects: [{lamp}])"));
+    let ran = sandbox.run(&["check", "lamp.ron"]).ends(0);
+    assert!(!ran.err.contains("W0301"), "{}", ran.err);
+    let powered = lamp.replace("radiance", "power");
+    sandbox.write("lamp.ron", format!("Scene(objects: [{powered}])"));
     let ran = sandbox.run(&["check", "lamp.ron"]).ends(2);
     assert!(ran.err.contains("E0544") && !ran.err.contains("W0301"), "{}", ran.err);
 }

@@ -211,6 +211,17 @@ fn rooms_are_meant() {
         codes(&sandbox, &text.replace("look_at: (0, 0.5, 0)", &format!("look_at: (0, 0.5, 0), {words}")))
     };
     assert_eq!(camera("fov: 40"), ["W0306"]);
+    // What shines lights the room that it stands in, a solid too, whole or in a part.
+    for lamp in [
+        "Union(material: Emissive(radiance: 0.3), objects: [Sphere(center: (0, 1, 4), radius: 1)])",
+        "Difference(objects: [Box(center: (0, 1, 3), size: 2), \
+         Sphere(center: (0, 1, 4), radius: 0.5, material: Emissive(radiance: 0.3))])",
+    ] {
+        assert!(code("", &format!("Box(center: (0, 1, 4), size: 9), {lamp}")).is_empty(), "{lamp}");
+    }
+    let shut = "Union(material: Emissive(radiance: 3), objects: [Box(size: 1)], transform: [Translate((0, 3, 0))]), \
+                Sphere(center: (0, 3, 0), radius: 2)";
+    assert_eq!(code("background: 0.5,", shut), ["W0307"]);
     assert!(camera("near: 1").is_empty());
     assert!(camera("projection: Orthographic(height: 4)").is_empty());
 }

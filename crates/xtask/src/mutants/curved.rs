@@ -60,6 +60,20 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["solids::nothing_shines"]),
     },
     Mutant {
+        name: "samples-of-an-operand-take-what-they-meet",
+        file: "crates/kernels/src/shapes/lamp/solid.rs",
+        find: "operand == self.number && (two_sided",
+        replace: "operand < u32::MAX && (two_sided",
+        caught_by: proofs(&["shining_solids::shining_solids_as"]),
+    },
+    Mutant {
+        name: "solids-do-not-light-themselves",
+        file: "crates/kernels/src/engine/stages/lights/curved.rs",
+        find: "on[lane] == light.primitive)",
+        replace: "on[lane] == light.primitive + 1)",
+        caught_by: proofs(&["shining_solids::shining_solids_as"]),
+    },
+    Mutant {
         name: "disks-have-no-hole",
         file: "crates/kernels/src/shapes/disk.rs",
         find: "at.dot(at) >= inner * inner",

@@ -21,6 +21,27 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["layers::first_hits_are_those_of_the_reference"]),
     },
     Mutant {
+        name: "triangles-move-as-others-do",
+        file: "crates/kernels/src/scene/motion.rs",
+        find: "primitive.checked_sub(self.tables.loose())?",
+        replace: "primitive.checked_sub(self.tables.loose().min(1))?",
+        caught_by: proofs(&["motion::motion_of_things"]),
+    },
+    Mutant {
+        name: "copies-move-as-others-do",
+        file: "crates/kernels/src/scene/motion.rs",
+        find: "place[..2] < [object, copy][..]",
+        replace: "place[..1] < [object][..]",
+        caught_by: proofs(&["motion::motion_of_things"]),
+    },
+    Mutant {
+        name: "what-is-round-jumps-at-the-vertical",
+        file: "crates/kernels/src/scene/motion.rs",
+        find: "if is_round && now.2 && then.2 {",
+        replace: "if is_round && !now.2 && then.2 {",
+        caught_by: proofs(&["motion::motion_of_things"]),
+    },
+    Mutant {
         name: "two-surfaces-are-direct",
         file: "crates/tracer-core/src/engine/direct.rs",
         find: "pub const LAST: u32 = 1;",

@@ -81,10 +81,12 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
         // Of a power that of a ball's surface.
         let power = 4.0 * (std::f64::consts::PI * radius).powi(2);
         let seen = 683.0 * strength * Number::of_color(color);
-        let kind = random.below(8);
+        let kind = random.below(9);
         // What a ball shows of itself. Only balls and flat shapes have an intensity.
         let disc = std::f64::consts::PI * radius * radius;
         let (amount, tint) = match random.below(8) {
+            // Of solids nobody knows the area.
+            _ if kind == 8 => (Amount::Radiance(color.map(|c| c * strength)), [1.0; 3]),
             3 if matches!(kind, 0 | 1 | 3) => (Amount::Intensity(color.map(|c| c * strength * disc)), [1.0; 3]),
             4 if matches!(kind, 0 | 1 | 3) => (Amount::LuminousIntensity(seen * disc), color),
             0 => (Amount::Power(color.map(|c| c * strength * power)), [1.0; 3]),
@@ -101,6 +103,7 @@ pub fn other_lamps(world: &mut World, random: &mut Random) {
         match kind {
             5 | 6 => super::curved::shape(world, center, radius, material, random),
             7 => super::curved::ball(world, center, radius, material, random),
+            8 => super::solids::lamp(world, center, radius, material, random),
             0 | 1 => rectangle(world, center, radius, material, random),
             2 => cuboid(world, center, radius, material, random),
             3 => world.sphere(center, radius, material),

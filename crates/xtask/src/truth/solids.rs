@@ -1,7 +1,7 @@
 //! Solids made of closed shapes.
 
 use super::curved::steps;
-use super::draw::once_in;
+use super::draw::{matt, once_in};
 use super::meshes::Point;
 use super::world::{World, inline};
 use scene_format::desc::{
@@ -13,6 +13,23 @@ use tracer_reference::Random;
 
 /// Adds a solid within a sphere. All of it is of one material, which some of its shapes have written themselves.
 pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+    placed(world, center, radius, (material, None), random);
+}
+
+/// Adds a solid within a sphere that shines, whole or one of its shapes.
+pub fn lamp(world: &mut World, center: Point, radius: f64, material: Material, random: &mut Random) {
+    let made = if once_in(random, 2) { (material, None) } else { (matt(world, random), Some(material)) };
+    placed(world, center, radius, made, random);
+}
+
+/// Adds a solid within a sphere; `last`: of its last shape, where that is another one.
+fn placed(
+    world: &mut World,
+    center: Point,
+    radius: f64,
+    (material, last): (Material, Option<Material>),
+    random: &mut Random,
+) {
     let copied = once_in(random, 4);
     let middle = if copied { [0.0; 3] } else { center };
     let there = vec![Transform::Translate(center).into()];
@@ -32,6 +49,9 @@ pub fn shape(world: &mut World, center: Point, radius: f64, material: Material, 
     let transform = if once_in(random, 2) { about(steps(middle, radius, random)) } else { Vec::new() };
     let mut solid = solid(middle, radius, &material, 2, random);
     *solid.material_mut() = inline(material);
+    if let (Some(last), Some(operands)) = (last, solid.operands_mut()) {
+        operands.0.iter_mut().next_back().map(|shape| *shape.value.material_mut() = inline(last));
+    }
     *solid.transform_mut() = transform;
     *solid.placements_mut() = placements;
     world.desc.objects.push(solid.into());

@@ -101,7 +101,7 @@ impl Plan {
         let casters = Casters::new(scene, MOST_PAIRS / scene.lights.len());
         let mut pairs = Vec::new();
         let mut all = 0.0;
-        for (k, light) in scene.lights.iter().enumerate() {
+        for (k, light) in scene.lights.iter().enumerate().filter(|(_, light)| light.is_drawn()) {
             let pi = std::f64::consts::PI;
             let radiance = light.radiance().iter().sum::<f64>() * scene.tables.lights.share(k);
             // Area over 4 pi.

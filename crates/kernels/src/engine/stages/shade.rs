@@ -206,7 +206,9 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
             let (u, v) = of_choice;
             let choice = lights::choose(&tables.lights, Receiver { p: s.start, n: s.ns }, u, v);
             let (u, v) = on_light;
-            let l = lights::sample(&tables.lights, &choice, s.start, u, v, lit_here);
+            let on = F::U::select(instance.eq(F::U::splat(NONE)), primitive, F::U::splat(NONE));
+            let from = lights::Start { p: s.start, on, parts: &tables.shapes.parts };
+            let l = lights::sample(&tables.lights, &choice, from, u, v, lit_here);
             let cos_i = s.ns.dot(l.wi);
             let lit = lit_here & bsdf.reaches(cos_i) & zero.lt(l.distance);
             if lit.any() {

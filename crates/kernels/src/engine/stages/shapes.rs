@@ -41,10 +41,6 @@ pub fn on_shapes<F: Lanes>(
     if let Some(offsets) = scene.accel.as_deref().and_then(Accel::coplanar_shape_offsets) {
         offset = F::gather(offsets, index);
     }
-    let mut light = F::U::splat(0);
-    if !scene.tables.shapes.light.is_empty() {
-        light = F::U::gather(&scene.tables.shapes.light, index);
-    }
     Surface {
         p,
         start: facing.mad(offset, p),
@@ -56,7 +52,7 @@ pub fn on_shapes<F: Lanes>(
         u: F::load(&found.uv[0]),
         v: F::load(&found.uv[1]),
         material: F::U::load(&found.material),
-        light,
+        light: F::U::load(&found.light),
         body: F::U::load(&found.body),
         primitive: index,
     }
@@ -76,6 +72,7 @@ struct Found {
     n: [[f32; MOST]; 3],
     uv: [[f32; MOST]; 2],
     material: [u32; MOST],
+    light: [u32; MOST],
     body: [u32; MOST],
     outside: u32,
 }
@@ -83,7 +80,8 @@ struct Found {
 #[inline(never)]
 fn find(table: &ShapeTable, spheres: u32, at: &At, mut lanes: u32) -> Found {
     let (zero, none) = ([0.0; MOST], [0; MOST]);
-    let mut found = Found { p: [zero; 3], n: [zero; 3], uv: [zero; 2], material: none, body: none, outside: 0 };
+    let mut found =
+        Found { p: [zero; 3], n: [zero; 3], uv: [zero; 2], material: none, light: none, body: none, outside: 0 };
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize & (MOST - 1);
         lanes &= lanes - 1;
@@ -93,11 +91,12 @@ fn find(table: &ShapeTable, spheres: u32, at: &At, mut lanes: u32) -> Found {
         let direction = of(&at.direction);
         let point = of(&at.origin) + f64::from(at.t[lane]) * direction;
         let (mut body, mut material) = (spheres + at.index[lane], material);
+        let mut light = table.light.get(index).copied().unwrap_or(0);
         let on = match row.on_solid(&table.parts, point) {
             None => row.surface(point),
             Some((operand, n)) => {
                 let Some(of) = table.operands.get(operand as usize) else { continue };
-                (body, material) = (table.first_body + operand, of.material);
+                (body, material, light) = (table.first_body + operand, of.material, of.light);
                 OnUnit { n, ..of.row.surface(point) }
             }
         };
@@ -108,6 +107,7 @@ fn find(table: &ShapeTable, spheres: u32, at: &At, mut lanes: u32) -> Found {
         found.uv[0][lane] = on.uv.x as f32;
         found.uv[1][lane] = on.uv.y as f32;
         found.material[lane] = material;
+        found.light[lane] = light;
         found.body[lane] = body;
         found.outside |= u32::from(on.n.dot(direction) < 0.0) << lane;
     }

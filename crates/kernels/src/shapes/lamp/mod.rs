@@ -18,8 +18,9 @@ mod flat;
 mod ring;
 mod round;
 mod side;
+mod solid;
 
-use super::{Row, UnitShape};
+use super::{Row, UnitShape, csg};
 use flat::Flat;
 use glam::{DAffine3, DMat3, DVec3};
 use ring::Ring;
@@ -39,6 +40,8 @@ enum Form {
     Capsule(Side),
     /// A torus.
     Torus(Ring),
+    /// An operand of a solid.
+    Operand(solid::Operand),
 }
 
 /// A curved shape that shines.
@@ -135,7 +138,8 @@ impl Lamp {
             }
             UnitShape::Capsule { half } => Form::Capsule(Side { middle: 1.0, slope: 0.0, half: held(half) }),
             UnitShape::Torus { tube } => Form::Torus(Ring { tube: held(tube) }),
-            UnitShape::Plane | UnitShape::Cube | UnitShape::Solid(_) => unreachable!("it does not shine"),
+            UnitShape::Solid(solid) => Form::Operand(solid::Operand::new(&solid)),
+            UnitShape::Plane | UnitShape::Cube => unreachable!("it does not shine"),
         };
         let of_side =
             |side: &Side| Share { own: side.area(), area: area::of_side(&map, side.middle, side.slope, side.half) };
@@ -150,6 +154,7 @@ impl Lamp {
             Form::Cone { side, caps: Some([low, high]) } => [of_side(side), of_flat(low), of_flat(high)],
             Form::Capsule(side) => [of_side(side), ball, nothing],
             Form::Torus(ring) => [Share { own: ring.area(), area: area::of_torus(&map, ring.tube) }, nothing, nothing],
+            Form::Operand(operand) => [Share { own: operand.area(), area: operand.area() }, nothing, nothing],
         };
         let [low, high] = unit.bounds(placement);
         let magnitude = low.abs().max(high.abs()).element_sum();
@@ -173,7 +178,7 @@ impl Lamp {
         Lamp { offset: self.offset.max(least), ..self }
     }
 
-    /// The area in render space, of one side.
+    /// The area in render space, of one side; of an operand that of a sphere about it.
     pub fn area(&self) -> f64 {
         self.area
     }
@@ -188,6 +193,16 @@ impl Lamp {
 
     /// A direction from a point to it, for two random numbers; `None`: this time none, or it does not shine there.
     pub fn sample(&self, from: DVec3, u: f64, v: f64) -> Option<Towards> {
+        self.sample_among(&[], (from, false), u, v)
+    }
+
+    /// As [`sample`](Self::sample), from a point that lies on the very shape where `true`. `parts`: those of all
+    /// solids.
+    pub fn sample_among(&self, parts: &[csg::Part], on: (DVec3, bool), u: f64, v: f64) -> Option<Towards> {
+        if let Form::Operand(operand) = &self.form {
+            return operand.sample(&self.row, parts, on, self.two_sided, [u, v]);
+        }
+        let from = on.0;
         let view = self.view(from);
         if view.sum <= 0.0 {
             return None;
@@ -219,6 +234,9 @@ impl Lamp {
 
     /// One over the density of [`Lamp::sample`] in solid angle, of a direction that meets it.
     pub fn inverse_pdf(&self, from: DVec3, direction: DVec3) -> f64 {
+        if let Form::Operand(operand) = &self.form {
+            return operand.inverse_pdf(from);
+        }
         let Some(t) = self.row.meet(from, direction, false) else { return f64::INFINITY };
         let view = self.view(from);
         let (way, length) = self.way(view.o, direction, t);
@@ -243,6 +261,7 @@ impl Lamp {
             Form::Cone { side, .. } => o.z.abs() <= side.half && side.holds(o),
             Form::Capsule(side) => (o - DVec3::new(0.0, 0.0, o.z.clamp(-side.half, side.half))).length_squared() <= 1.0,
             Form::Torus(ring) => ring.holds(o),
+            Form::Operand(_) => false,
         };
         let mut weights = [0.0; 4];
         match &self.form {
@@ -266,6 +285,7 @@ impl Lamp {
                 weights[HIGH] = round::measure(side.beside_end(o, 1.0));
             }
             Form::Torus(_) => weights[NEAR] = 1.0,
+            Form::Operand(_) => {}
         }
         View { o, within, weights, sum: weights.iter().sum() }
     }
@@ -286,6 +306,7 @@ impl Lamp {
                 side.towards(&side.seen(o), facing, u, v) - o
             }
             Form::Torus(ring) => ring.towards(o, u, v)? - o,
+            Form::Operand(_) => return None,
         };
         Some(to)
     }
@@ -308,6 +329,7 @@ impl Lamp {
                 low * ball(-1.0) + high * ball(1.0) + near * side.density_of_line(way)
             }
             Form::Torus(ring) => near * ring.density(way),
+            Form::Operand(_) => 0.0,
         };
         of_parts / view.sum
     }
@@ -340,6 +362,7 @@ impl Lamp {
             },
             Form::Capsule(side) => (q - DVec3::new(0.0, 0.0, q.z.clamp(-side.half, side.half))).normalize_or_zero(),
             Form::Torus(ring) => ring.normal(q),
+            Form::Operand(_) => DVec3::ZERO,
         }
     }
 
@@ -347,6 +370,7 @@ impl Lamp {
     pub fn start(&self, u: f64, v: f64) -> Start {
         let (part, u) = picked(&self.parts.map(|part| part.area), u);
         let (q, n) = match (&self.form, part) {
+            (Form::Operand(operand), _) => return operand.start(),
             (Form::Ball, _) => (round::anywhere(u, v), None),
             (Form::Disk(flat), _) => (flat.point(u, v), Some(DVec3::Z)),
             (Form::Cone { caps: Some([low, _]), .. }, 1) => (low.point(u, v), Some(DVec3::NEG_Z)),
@@ -373,7 +397,7 @@ impl Lamp {
     pub fn rarity(&self, normal: DVec3) -> f64 {
         let n = (self.map.transpose() * normal).normalize_or_zero();
         let part = match &self.form {
-            Form::Ball | Form::Torus(_) => 0,
+            Form::Ball | Form::Torus(_) | Form::Operand(_) => 0,
             Form::Disk(_) => 1,
             Form::Cone { caps: None, .. } => 0,
             Form::Cone { side, caps: Some(_) } => {

@@ -32,7 +32,8 @@ scene_struct! {
         exactly one of [radiance, intensity, luminance, luminous_intensity, luminous_power, power] {
         /// Radiance L of every point, in all directions.
         radiance: Option<Spanned<Color>> = None => Rule::light("in W/(sr m^2)");
-        /// Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`).
+        /// Power of each copy: L = P / (pi A), A the true area that shines (both sides where `two_sided`). Not of
+        /// solids and their parts: nobody knows how much of their surface is left.
         power: Option<Spanned<Color>> = None => Rule::light("in W");
         /// Radiant intensity of each copy: of `Rectangle`, `Disk` and `Polygon` along the normal, L = I / A, A the area
         /// of one side; of `Sphere` L = 4 I / A, the mean over all directions where it was scaled unequally. Other
@@ -72,13 +73,7 @@ impl Emissive {
     /// What is wrong with the amount and the colour together: a texture on something that is said of the whole lamp.
     pub fn fault(&self) -> Option<Diagnostic> {
         self.texture()?;
-        let (name, other) = match self.amount.value {
-            Amount::Radiance(_) | Amount::Luminance(_) => return None,
-            Amount::Intensity(_) => ("intensity", "radiance"),
-            Amount::Power(_) => ("power", "radiance"),
-            Amount::LuminousIntensity(_) => ("luminous_intensity", "luminance"),
-            Amount::LuminousPower(_) => ("luminous_power", "luminance"),
-        };
+        let (name, other) = self.amount.value.of_whole()?;
         let message =
             format!("`{name}` is of the whole lamp, and `color` is a texture: each point shines another part");
         let fault = Diagnostic::error(codes::NO_USE, self.amount.span, message);

@@ -59,7 +59,8 @@ impl Words for Operands {
 
 scene_struct! {
     /// Closed shapes put together to one body: there are no walls inside it, also where they touch. Every surface has
-    /// the material of the shape that it is of, and its texture coordinates. It cannot shine.
+    /// the material of the shape that it is of, and its texture coordinates. It may shine, whole or in parts, by
+    /// `radiance` or `luminance`; light samples find it, photons and light paths do not start on it.
     pub struct Union as "Union", "a union" {
         /// The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Torus`, `Union`,
         /// `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each
@@ -85,7 +86,7 @@ scene_struct! {
 
 scene_struct! {
     /// What closed shapes have in common: of two balls a lens. Every surface has the material of the shape that it is
-    /// of, and its texture coordinates. It cannot shine.
+    /// of, and its texture coordinates. It may shine as a `Union` may.
     pub struct Intersection as "Intersection", "an intersection" {
         /// The shapes, as those of a `Union`. Where surfaces coincide that of the first shows.
         objects: Operands;
@@ -108,8 +109,8 @@ scene_struct! {
 
 scene_struct! {
     /// The first of several closed shapes without the others: a wall with a window, a bowl. Where it is cut the surface
-    /// is that of the shape that cuts, with its material, where it has one, and its texture coordinates. It cannot
-    /// shine.
+    /// is that of the shape that cuts, with its material, where it has one, and its texture coordinates. It may shine
+    /// as a `Union` may.
     pub struct Difference as "Difference", "a difference" {
         /// The shapes, as those of a `Union`: first what is cut, then what is taken away. Where both have a face in
         /// one place, and what is taken away lies behind it, it is gone: no skin is left.

@@ -370,6 +370,9 @@ fn object_of_light(scene: &Scene, light: u32) -> u32 {
     if let Some(Light::Sphere { sphere, .. }) = scene.lights.get(light as usize) {
         return scene.spheres.get(*sphere as usize).map_or(NONE, |sphere| sphere.object);
     }
+    if let Some(curved) = scene.lights.get(light as usize).and_then(Light::curved) {
+        return scene.shapes.get(curved.shape as usize).map_or(NONE, |shape| shape.object);
+    }
     let triangle = scene.triangles.light.iter().position(|&of| of == light).unwrap_or(usize::MAX);
     let has_it = |mesh: u32| {
         let mesh = scene.meshes.get(mesh as usize);

@@ -1,9 +1,10 @@
 //! Curved lights that are no spheres, lane by lane: what [`crate::shapes::Lamp`] says of each, in `f64`.
 
-use super::LightSample;
+use super::{LightSample, Start};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{CurvedRow, LightTable};
+use crate::shapes::csg::Part;
 use glam::DVec3;
 
 /// The most lanes that there are.
@@ -12,11 +13,13 @@ pub(super) const MOST: usize = 32;
 /// Three numbers of each lane.
 pub(super) type Column3 = [[f32; MOST]; 3];
 
-/// Directions from `p` to the lights `k`, in the lanes of the mask; others hold anything.
+/// Directions to the lights `k`, in the lanes of the mask; others hold anything.
 #[inline(always)]
-pub fn sample<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>, u: F, v: F, lanes: F::M) -> LightSample<F> {
-    let asked = Asked::new::<F>(lights.spheres, k, p, V3(u, v, v));
-    let found = sampled(&lights.curved, &asked, lanes.bits());
+pub fn sample<F: Lanes>(lights: &LightTable, k: F::U, from: Start<'_, F>, u: F, v: F, lanes: F::M) -> LightSample<F> {
+    let asked = Asked::new::<F>(lights.spheres, k, from.p, V3(u, v, v));
+    let mut on = [0; MOST];
+    from.on.store(&mut on);
+    let found = sampled(&lights.curved, from.parts, &asked, &on, lanes.bits());
     LightSample {
         wi: loaded(&found.direction),
         distance: F::load(&found.distance),
@@ -41,7 +44,7 @@ pub fn radiance<F: Lanes>(lights: &LightTable, k: F::U, outside: F::M, lanes: F:
 }
 
 /// Where photons and light paths start.
-pub struct Start<F: Lanes> {
+pub struct PointOfLight<F: Lanes> {
     /// The point.
     pub point: V3<F>,
     /// The unit normal outwards.
@@ -52,13 +55,13 @@ pub struct Start<F: Lanes> {
 
 /// Points of the curved lights with these rows, for two random numbers.
 #[inline(always)]
-pub fn start<F: Lanes>(rows: &[CurvedRow], row: F::U, u: F, v: F, lanes: F::M) -> Start<F> {
+pub fn start<F: Lanes>(rows: &[CurvedRow], row: F::U, u: F, v: F, lanes: F::M) -> PointOfLight<F> {
     let asked = Asked::new::<F>(0, row, V3::zero(), V3(u, v, v));
     let found = started(rows, &asked, lanes.bits());
-    Start { point: loaded(&found.point), normal: loaded(&found.normal), rarity: F::load(&found.rarity) }
+    PointOfLight { point: loaded(&found.point), normal: loaded(&found.normal), rarity: F::load(&found.rarity) }
 }
 
-/// [`Start::rarity`] of points with these normals.
+/// [`PointOfLight::rarity`] of points with these normals.
 #[inline(always)]
 pub fn rarity<F: Lanes>(rows: &[CurvedRow], row: F::U, normal: V3<F>, lanes: F::M) -> F {
     let asked = Asked::new::<F>(0, row, V3::zero(), normal);
@@ -136,7 +139,7 @@ struct Sampled {
 }
 
 #[inline(never)]
-fn sampled(rows: &[CurvedRow], asked: &Asked, lanes: u32) -> Sampled {
+fn sampled(rows: &[CurvedRow], parts: &[Part], asked: &Asked, on: &[u32; MOST], lanes: u32) -> Sampled {
     let zero = [0.0; MOST];
     let mut found = Sampled {
         direction: [zero, zero, [1.0; MOST]],
@@ -148,7 +151,8 @@ fn sampled(rows: &[CurvedRow], asked: &Asked, lanes: u32) -> Sampled {
     for lane in Set(lanes) {
         let Some(light) = asked.light(rows, lane) else { continue };
         let numbers = vector(&asked.numbers, lane);
-        let Some(towards) = light.lamp.sample(vector(&asked.from, lane), numbers.x, numbers.y) else { continue };
+        let from = (vector(&asked.from, lane), on[lane] == light.primitive);
+        let Some(towards) = light.lamp.sample_among(parts, from, numbers.x, numbers.y) else { continue };
         store(&mut found.direction, lane, towards.direction.as_vec3().to_array());
         found.distance[lane] = towards.distance as f32;
         found.inverse_pdf[lane] = towards.inverse_pdf as f32;

@@ -96,7 +96,7 @@ pub fn radiance<F: Lanes>(lights: &LightTable, k: F::U, outside: F::M) -> V3<F> 
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Receiver, choose, pdf, radiance, sample};
+    use super::super::{Receiver, Start, choose, pdf, radiance, sample};
     use super::*;
     use crate::lanes::ArrayF;
     use crate::scene::{FlatLight, Light};
@@ -152,7 +152,7 @@ mod tests {
             for _ in 0..SAMPLES {
                 let mut number = || S::splat((random.bits() >> 40) as f32 / 16_777_216.0);
                 let choice = choose(&table, at, number(), number());
-                let s = sample(&table, &choice, at.p, number(), number(), S::first(1));
+                let s = sample(&table, &choice, Start::free(at.p), number(), number(), S::first(1));
                 let mut chosen = [9];
                 choice.light.store(&mut chosen);
                 if chosen[0] != 0 {

@@ -18,6 +18,7 @@ mod sphere;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{Environment, LightTable};
+use crate::shapes::csg::Part;
 pub use glow::{share_at, share_towards};
 pub use selection::{Choice, choose};
 
@@ -33,6 +34,25 @@ pub struct LightSample<F: Lanes> {
     pub radiance: V3<F>,
     /// The light's primitive, which is not in the way; `NONE` where the ray ends before it.
     pub primitive: F::U,
+}
+
+/// Where a light sample starts.
+#[derive(Clone, Copy)]
+pub struct Start<'s, F: Lanes> {
+    /// The point.
+    pub p: V3<F>,
+    /// The sphere or shape that it lies on; else any number that no shape has.
+    pub on: F::U,
+    /// The parts of all solids.
+    pub parts: &'s [Part],
+}
+
+#[cfg(test)]
+impl<F: Lanes> Start<'_, F> {
+    /// A point in space.
+    fn free(p: V3<F>) -> Self {
+        Start { p, on: F::U::splat(u32::MAX), parts: &[] }
+    }
 }
 
 /// Where light is asked for.
@@ -59,14 +79,21 @@ pub struct LightHit<F: Lanes> {
     pub lanes: F::M,
 }
 
-/// A direction from `p` to the chosen light, in the lanes of the mask; others hold anything.
+/// A direction to the chosen light, in the lanes of the mask; others hold anything.
 #[inline(always)]
-pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F, v: F, lanes: F::M) -> LightSample<F> {
+pub fn sample<F: Lanes>(
+    lights: &LightTable,
+    choice: &Choice<F>,
+    from: Start<'_, F>,
+    u: F,
+    v: F,
+    lanes: F::M,
+) -> LightSample<F> {
     let mut sample = match &lights.environment {
-        None => numbered(lights, choice.light, p, u, v, lanes),
+        None => numbered(lights, choice.light, from, u, v, lanes),
         Some(environment) if lights.asked == 0 => environment::sample(environment, u, v),
         Some(environment) => {
-            let near = numbered(lights, choice.light, p, u, v, lanes & !choice.environment);
+            let near = numbered(lights, choice.light, from, u, v, lanes & !choice.environment);
             if choice.environment.any() {
                 near.or(choice.environment, environment::sample(environment, u, v))
             } else {
@@ -80,14 +107,15 @@ pub fn sample<F: Lanes>(lights: &LightTable, choice: &Choice<F>, p: V3<F>, u: F,
     sample
 }
 
-/// A direction from `p` to light `k`.
+/// A direction to light `k`.
 #[inline(always)]
-fn numbered<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>, u: F, v: F, lanes: F::M) -> LightSample<F> {
+fn numbered<F: Lanes>(lights: &LightTable, k: F::U, from: Start<'_, F>, u: F, v: F, lanes: F::M) -> LightSample<F> {
+    let p = from.p;
     let mut sample = sphere::sample(lights, k, p, u, v);
     if lights.has_curved() {
         let is_curved = lanes & curved_lanes(lights, k);
         if is_curved.any() {
-            sample = sample.or(is_curved, curved::sample(lights, k, p, u, v, is_curved));
+            sample = sample.or(is_curved, curved::sample(lights, k, from, u, v, is_curved));
         }
     }
     if lights.has_flat() {

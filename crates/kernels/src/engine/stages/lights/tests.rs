@@ -50,6 +50,7 @@ fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
             radius,
             material: NONE,
             object: 0,
+            copy: 0,
             light: k as u32,
             coordinates: 0,
         })
@@ -112,7 +113,8 @@ fn samples_meet_the_light() {
             let v = V3::<S>::splat(p.to_array());
             let k = <S as Lanes>::U::splat(0);
             let choice = Choice { light: k, probability: S::splat(1.0), environment: near() };
-            let sample = sample(&lights, &choice, v, number(&mut random), number(&mut random), S::first(1));
+            let sample =
+                sample(&lights, &choice, Start::free(v), number(&mut random), number(&mut random), S::first(1));
             // Each of them is rounded three times at most.
             let product = scalar(sample.inverse_pdf) * scalar(pdf(&lights, k, facing_up(v), &met()));
             assert!((product - 1.0).abs() < 6.0 * 2f64.powi(-24), "distance {distance}: {product}");
@@ -152,8 +154,15 @@ fn directions_are_uniform_in_the_cone() {
         for _ in 0..50_000 {
             let only = Choice { light: <S as Lanes>::U::splat(0), probability: S::splat(1.0), environment: near() };
             let wi = point(
-                sample(&lights, &only, V3::splat(p.to_array()), number(&mut random), number(&mut random), S::first(1))
-                    .wi,
+                sample(
+                    &lights,
+                    &only,
+                    Start::free(V3::splat(p.to_array())),
+                    number(&mut random),
+                    number(&mut random),
+                    S::first(1),
+                )
+                .wi,
             );
             // 1 - cos from the chord, which keeps its digits.
             let share = 0.5 * (wi - axis).length_squared() / opening;
@@ -218,7 +227,7 @@ fn densities_hold_the_choice_of_the_light() {
             let is_right = |density: f64| (density / expected - 1.0).abs() < 2e-6;
             assert!(scalar(chance) < 0.99 && is_right(scalar(pdf(&table, light, at, &met()))), "light {k} from {p:?}");
             let choice = Choice { light, probability: chance, environment: near() };
-            let sample = sample(&table, &choice, v, number(&mut random), number(&mut random), S::first(1));
+            let sample = sample(&table, &choice, Start::free(v), number(&mut random), number(&mut random), S::first(1));
             assert!(is_right(1.0 / scalar(sample.inverse_pdf)), "light {k} from {p:?}, sampled");
         }
     }

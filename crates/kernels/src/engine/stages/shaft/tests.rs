@@ -122,7 +122,8 @@ fn large(random: &mut Random) -> (LargeSphere, impl Fn([f32; 3]) -> f64 + use<>)
     let n = glam::Vec3::from(vector(random, 1.0)).as_dvec3().normalize();
     let k = 10f64.powf(f64::from(number(random)) * 2.2 - 1.4);
     let center = glam::DVec3::from(p) - n / k;
-    let sphere = crate::scene::Sphere { center, radius: 1.0 / k, material: 0, object: 0, light: NONE, coordinates: 0 };
+    let sphere =
+        crate::scene::Sphere { center, radius: 1.0 / k, material: 0, object: 0, copy: 0, light: NONE, coordinates: 0 };
     let large = SphereTable::new(&[sphere], 1).large[0];
     let f = move |x: [f32; 3]| {
         let to = glam::Vec3::from(x).as_dvec3() - center;

@@ -18,7 +18,8 @@ fn point(random: &mut Random) -> DVec3 {
 /// A small sphere anywhere: its table, centre and radius.
 fn small(random: &mut Random) -> (SphereTable, DVec3, f64) {
     let radius = 0.12 * 10f64.powf(-1.5 * point(random).x.abs());
-    let spheres = [Sphere { center: point(random), radius, material: 0, object: 0, light: NONE, coordinates: 0 }];
+    let spheres =
+        [Sphere { center: point(random), radius, material: 0, object: 0, copy: 0, light: NONE, coordinates: 0 }];
     let table = SphereTable::new(&spheres, 1);
     (table, spheres[0].center, radius)
 }

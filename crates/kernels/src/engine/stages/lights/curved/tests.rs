@@ -1,6 +1,6 @@
 //! Curved lights among others, over lanes.
 
-use super::super::{self as lights, Choice, LightHit, LightSample, Receiver};
+use super::super::{self as lights, Choice, LightHit, LightSample, Receiver, Start};
 use crate::lanes::{ArrayF, Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{CurvedLight, FlatLight, Light, LightTable, NONE, Sphere};
@@ -23,7 +23,7 @@ fn stored(x: S) -> [f32; N] {
 
 #[inline(never)]
 fn sample(table: &LightTable, choice: &Choice<S>, p: V3<S>, [u, v]: [S; 2], lanes: M) -> LightSample<S> {
-    lights::sample(table, choice, p, u, v, lanes)
+    lights::sample(table, choice, Start::free(p), u, v, lanes)
 }
 
 #[inline(never)]
@@ -33,8 +33,15 @@ fn pdf(table: &LightTable, k: U, at: Receiver<S>, hit: &LightHit<S>) -> S {
 
 /// A ball, a disk with one side, a capsule, a square, a cylinder open at both ends with two sides, a torus.
 fn table() -> LightTable {
-    let sphere =
-        Sphere { center: DVec3::new(3.0, 0.0, 0.0), radius: 0.5, material: NONE, object: 0, light: 0, coordinates: 0 };
+    let sphere = Sphere {
+        center: DVec3::new(3.0, 0.0, 0.0),
+        radius: 0.5,
+        material: NONE,
+        object: 0,
+        copy: 0,
+        light: 0,
+        coordinates: 0,
+    };
     let curved = |shape: u32, unit: UnitShape, two_sided: bool| {
         let placement = DAffine3::from_translation(DVec3::new(0.0, 0.0, 3.0 * f64::from(shape)));
         Light::Curved(CurvedLight {
