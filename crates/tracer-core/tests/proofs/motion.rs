@@ -388,10 +388,14 @@ fn motion_of_things_beside_each_other() {
          [Rotate(axis: (0, 0, 1), degrees: \"=90*time\"), Translate((1.2, 0, 0))], \
          [Translate((0, \"=1.2 + time\", 0))]]), {many}"
     );
-    check("copies", &copies, 1.0, 60, &|p| match p {
-        [x, y, _] if x > 0.4 && y < 0.6 => [-w * y, w * (x - 1.2), 0.0],
-        [x, y, _] if y > 0.6 && x.abs() < 0.6 => [0.0, 1.0, 0.0],
-        _ => [0.0; 3],
+    check("copies", &copies, 1.0, 60, &|[x, y, _]| {
+        let to = |at: [f64; 2]| (x - at[0]).hypot(y - at[1]);
+        let [still, turning, climbing] = [[-1.2, 0.0], [1.2, 0.0], [0.0, 1.2]].map(to);
+        match () {
+            () if turning < still.min(climbing) => [-w * y, w * (x - 1.2), 0.0],
+            () if climbing < still => [0.0, 1.0, 0.0],
+            () => [0.0; 3],
+        }
     });
     let growing = format!(
         "Sphere(center: (0, 0, 0), radius: \"=0.7 + time\"), \
@@ -401,7 +405,7 @@ fn motion_of_things_beside_each_other() {
     check("balls that grow", &growing, 2.0, 60, &|p| [(p[0] - 1.6) / 0.5, p[1] / 0.5, p[2] / 0.5]);
     let pendulum =
         format!("Cylinder(from: (0, 1.5, 0), to: (\"=0.005 - time\", -1.5, 0), radius: 0.3, caps: false), {many}");
-    check("a pendulum", &pendulum, 1.0, 60, &|p| [-(1.5 - p[1]) / 3.0, 0.0, 0.0]);
+    check("a pendulum", &pendulum, 1.0, 60, &|p| [-(1.5 - p[1]) / 3.0, -p[0] / 3.0, 0.0]);
     let meshes = format!(
         "{many} Cylinder(radius: 0.1, to: (0, 0.2, 0)), Box(center: (-1, 0, 0), size: 1, \
          transform: [Rotate(axis: (0, 0, 1), degrees: \"=90*time\", about: (-1, 0, 0))]), \
