@@ -25,11 +25,15 @@ pub const CHAINS: u32 = 3;
 /// What is left to the path's own share.
 pub const WEIGHT: f32 = 1.0 / (CHAINS as f32 + 1.0);
 
+/// From so many vertices behind those rays are aimed, too.
+pub const LATE_AIMS: u32 = 2;
+
 /// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`) and have a ray aimed
 /// wherever they may (`stages::aim`), and behind every array for one vector more: a compressing store writes whole
 /// registers. A path's own ray has one more at each of its first vertices, at glass or at a rough surface, and so have
-/// those from glass, and aimed ones after a mirror: seven.
-pub const CAPACITY: usize = (1 + 2 * BRANCHING as usize) * PATHS + 64;
+/// those from glass, and aimed ones after a mirror: seven. Behind these vertices each may have [`LATE_AIMS`], which have
+/// none.
+pub const CAPACITY: usize = (1 + 2 * BRANCHING as usize) * (1 + LATE_AIMS as usize) * PATHS + 64;
 
 /// A value for each path. The compiler knows the length, so that a place is checked once for all columns.
 pub type Column<T> = Box<[T; CAPACITY]>;
@@ -71,6 +75,10 @@ pub mod path {
     pub const AIMS: u32 = 8 * SHARED;
     /// The fainter of both ways at glass: it goes both ways no more, and shares nothing.
     pub const BRANCH: u32 = 32 * SHARED;
+    /// From so many vertices behind the first ones rays were aimed, of the path or of that from which it was aimed.
+    pub const LATE: u32 = 64 * SHARED;
+    /// All bits of that number.
+    pub const LATES: u32 = 3 * LATE;
     /// The path's ray was aimed ([`super::super::stages::aim`]): it goes on where it meets a mirror, glass or a glossy
     /// surface only.
     pub const AIMED: u32 = 16 * SHARED;
@@ -291,6 +299,21 @@ impl Members {
             slot: words(),
             primitive: words(),
             instance: words(),
+        }
+    }
+
+    /// Moves those of the mask, from `from` on, to `to`, which does not lie behind.
+    #[inline(always)]
+    pub fn keep<F: Lanes>(&mut self, from: usize, mask: F::M, to: usize) {
+        for columns in [&mut self.start, &mut self.normal, &mut self.geometric, &mut self.wo, &mut self.weight] {
+            V3::<F>::load(columns, from).compress(mask, columns, to);
+        }
+        let [first, second] = &mut self.numbers;
+        for column in [first, second, &mut self.survival, &mut self.film] {
+            F::load(&column[from..]).compress(mask, &mut column[to..]);
+        }
+        for column in [&mut self.kind, &mut self.slot, &mut self.primitive, &mut self.instance] {
+            F::U::load(&column[from..]).compress(mask, &mut column[to..]);
         }
     }
 }

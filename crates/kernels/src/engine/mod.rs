@@ -17,7 +17,6 @@ mod stages;
 pub mod told;
 pub mod watch;
 
-pub use stages::aim::AIMS_UNTIL;
 pub use stages::camera::density;
 pub use stages::deposit::deposit;
 pub use stages::light_paths::LightPass;

@@ -90,8 +90,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "cells-of-other-places",
         file: CELLS,
-        find: "row = entry.row;",
-        replace: "row = entry.row + SPHERES as u32;",
+        find: "cell = F::U::select(on, child, cell);",
+        replace: "cell = F::U::select(on, child + F::U::splat(1), cell);",
         caught_by: kernel_units(&["engine::guide::cells"]),
     },
     Mutant {

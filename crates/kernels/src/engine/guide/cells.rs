@@ -1,6 +1,8 @@
 //! Where the light comes from, by place: the cells of an octree over the places that photons reached, each with spheres
 //! in space that hold the last mirrors and glass on the photons' ways.
 
+use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::V3;
 use crate::sampling::sampler::hash3;
 
 /// Spheres of a cell.
@@ -17,6 +19,8 @@ const FINEST: f32 = (1u32 << (LEVELS - 1)) as f32 / 4.0;
 const BITS: u32 = 19;
 /// Such coordinates are below this.
 const MOST: f32 = (1u32 << BITS) as f32;
+/// Bits of a place along the octree's curve below those of a cell of the coarsest level.
+const BELOW_COARSEST: u32 = 3 * (LEVELS - 1);
 /// Spheres are made larger by this share, and by as much of the way to the next photon: the light reaches beyond the
 /// photons that were sent.
 const MARGIN: f32 = 0.3;
@@ -35,26 +39,19 @@ pub struct Photon {
     pub flux: f32,
 }
 
-/// Spheres as columns, with what share of the rays goes to each.
+/// Spheres, with what share of the rays goes to each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SphereRows {
-    /// Middle.
-    pub center: [Vec<f32>; 3],
-    /// Squared radius.
-    pub radius2: Vec<f32>,
+    /// Four numbers each: middle and squared radius.
+    pub spheres: Vec<f32>,
     /// Share, up to a factor; zero: there is no sphere.
     pub weight: Vec<f32>,
-    /// Irradiance of the cell over what the lights send to the middle of a scene, about.
-    pub strength: Vec<f32>,
 }
 
 impl SphereRows {
     /// Adds a sphere.
-    pub fn push(&mut self, center: [f32; 3], radius: f32, weight: f32) {
-        for (column, x) in self.center.iter_mut().zip(center) {
-            column.push(x);
-        }
-        self.radius2.push(radius * radius);
+    pub fn push(&mut self, [x, y, z]: [f32; 3], radius: f32, weight: f32) {
+        self.spheres.extend([x, y, z, radius * radius]);
         self.weight.push(weight);
     }
 
@@ -63,33 +60,41 @@ impl SphereRows {
     pub fn count(&self) -> usize {
         self.weight.len()
     }
+
+    /// Middle and squared radius of a sphere, for all lanes.
+    #[inline(always)]
+    pub fn splat<F: Lanes>(&self, k: usize) -> [F; 4] {
+        let of = |number: usize| F::splat(self.spheres[4 * k + number]);
+        [of(0), of(1), of(2), of(3)]
+    }
 }
 
-/// A cell in the hash table; an empty place has the key 0.
-#[derive(Clone, Copy, Debug, Default)]
-struct Entry {
-    key: u64,
-    row: u32,
-}
-
-/// The octree. A cell of any level is there where it holds [`ENOUGH`] photons.
+/// The octree. A cell of any level is there where it holds [`ENOUGH`] photons. Cell 0 stands for places without one.
 #[derive(Default)]
 pub struct Cells {
-    /// Where the cells' corner lies, in cells.
+    /// Where the cells' corner lies, in cells of the finest level.
     shift: [f32; 3],
-    /// A hash table, half full at most; empty where there is no cell.
-    table: Vec<Entry>,
-    /// [`SPHERES`] rows for each cell. The first cell's have no weight: it stands for places without a cell.
+    /// The cell that holds all others, in cells of its own size, and that size as a power of two of the finest cells';
+    /// cell 1. Above the coarsest level cells have no spheres.
+    root: [u32; 3],
+    height: u32,
+    /// Of each cell its eight children, x first; 0: there is none. Empty where there is no cell.
+    children: Vec<u32>,
+    /// [`SPHERES`] rows for each cell. Cell 0's have no weight.
     pub rows: SphereRows,
+    /// Of each cell the irradiance over what the lights send to the middle of a scene, about.
+    pub strength: Vec<f32>,
 }
+
+/// A cell that is being added: its place along the octree's curve, in cells of its level, and its number.
+type Numbered = (u64, u32);
 
 impl Cells {
     /// The cells of these photons; `seed` decides where their borders lie, `unit` is the flux per area of strength one.
     pub fn new(seed: u32, photons: &[Photon], unit: f32) -> Cells {
         let shift = [0, 1, 2].map(|axis| (hash3(seed, axis, 0x001d_17ec) >> (65 - BITS)) as f32 + MOST / 4.0);
         let mut cells = Cells { shift, ..Cells::default() };
-        (0..SPHERES).for_each(|_| cells.rows.push([0.0; 3], 0.0, 0.0));
-        cells.rows.strength.resize(SPHERES, 0.0);
+        cells.add_bare();
         // Along the octree's curve a cell of any level is a run.
         let mut order: Vec<(u64, u32)> = Vec::with_capacity(photons.len());
         for (photon, k) in photons.iter().zip(0..) {
@@ -101,10 +106,16 @@ impl Cells {
             }
         }
         order.sort_unstable();
-        let mut found = Vec::new();
+        let coarsest: Vec<u64> = order
+            .chunk_by(|a, b| a.0 >> BELOW_COARSEST == b.0 >> BELOW_COARSEST)
+            .filter(|of_cell| of_cell.len() >= ENOUGH)
+            .map(|of_cell| of_cell[0].0 >> BELOW_COARSEST)
+            .collect();
+        let Some(mut above) = cells.add_root(&coarsest) else { return cells };
         let mut looked_at: Vec<Photon> = Vec::with_capacity(LOOKED_AT);
         for level in 0..LEVELS {
             let finer = 3 * (LEVELS - 1 - level);
+            let mut added = Vec::new();
             for of_cell in order.chunk_by(|a, b| a.0 >> finer == b.0 >> finer) {
                 if of_cell.len() < ENOUGH {
                     continue;
@@ -112,70 +123,105 @@ impl Cells {
                 let step = of_cell.len().div_ceil(LOOKED_AT);
                 looked_at.clear();
                 looked_at.extend(of_cell.iter().step_by(step).map(|&(_, k)| photons[k as usize]));
-                let Some(place) = cells.place(looked_at[0].point) else { continue };
-                found.push(Entry { key: key_of(place, level), row: cells.rows.count() as u32 });
                 let flux: f32 = of_cell.iter().map(|&(_, k)| photons[k as usize].flux).sum();
                 let width = (1u32 << (LEVELS - 1 - level)) as f32 / FINEST;
                 add_spheres(&mut looked_at, &mut cells.rows);
-                cells.rows.strength.resize(cells.rows.weight.len(), flux / (unit * width * width));
+                added.push((of_cell[0].0 >> finer, cells.add(flux / (unit * width * width))));
             }
-        }
-        if !found.is_empty() {
-            cells.table = vec![Entry::default(); (2 * found.len()).next_power_of_two()];
-            for entry in found {
-                let at = cells.position(entry.key);
-                cells.table[at] = entry;
-            }
+            cells.link(&above, &added);
+            above = added;
         }
         cells
     }
 
-    /// First row of the finest cell around a point; 0 where there is none.
-    #[inline(always)]
-    pub fn find(&self, point: [f32; 3]) -> u32 {
-        let Some(place) = self.place(point) else { return 0 };
-        if self.table.is_empty() {
-            return 0;
+    /// Adds the cells above the coarsest level that hold all of that level's; `None` where it has none. What is right
+    /// above that level.
+    fn add_root(&mut self, coarsest: &[u64]) -> Option<Vec<Numbered>> {
+        let first = *coarsest.first()?;
+        let is_alike = |up: u32| coarsest.iter().all(|cell| cell >> (3 * up) == first >> (3 * up));
+        let up = (0..).find(|&up| is_alike(up))?;
+        self.height = LEVELS - 1 + up;
+        let root = first >> (3 * up);
+        self.root = [0, 1, 2].map(|axis| gathered(root >> axis));
+        let mut above = Vec::new();
+        for up in (1..=up).rev() {
+            let mut places: Vec<u64> = coarsest.iter().map(|cell| cell >> (3 * up)).collect();
+            places.dedup();
+            let added: Vec<Numbered> = places.into_iter().map(|place| (place, self.add_bare())).collect();
+            self.link(&above, &added);
+            above = added;
         }
-        // A cell is there only where all coarser ones are: the finest is found by halving.
-        let (mut coarser, mut row, mut missing) = (0, 0, LEVELS);
-        while coarser < missing {
-            let level = (coarser + missing) / 2;
-            let entry = self.table[self.position(key_of(place, level))];
-            if entry.key == 0 {
-                missing = level;
-            } else {
-                row = entry.row;
-                coarser = level + 1;
+        Some(above)
+    }
+
+    /// Adds a cell whose rows are there, and tells its number.
+    fn add(&mut self, strength: f32) -> u32 {
+        self.strength.push(strength);
+        self.children.resize(8 * self.strength.len(), 0);
+        self.strength.len() as u32 - 1
+    }
+
+    /// Adds a cell without spheres.
+    fn add_bare(&mut self) -> u32 {
+        (0..SPHERES).for_each(|_| self.rows.push([0.0; 3], 0.0, 0.0));
+        self.add(0.0)
+    }
+
+    /// Makes cells the children of those one level above, both along the curve.
+    fn link(&mut self, above: &[Numbered], added: &[Numbered]) {
+        let mut parents = above.iter();
+        let mut parent = parents.next();
+        for &(place, number) in added {
+            while parent.is_some_and(|&(above, _)| above < place >> 3) {
+                parent = parents.next();
+            }
+            if let Some(&(_, of)) = parent {
+                self.children[8 * of as usize + (place & 7) as usize] = number;
             }
         }
-        row
+    }
+
+    /// The finest cells around points, in the lanes of the mask; elsewhere 0, as where there is none.
+    #[inline(always)]
+    pub fn find<F: Lanes>(&self, point: V3<F>, mask: F::M) -> F::U {
+        let none = F::U::splat(0);
+        if self.children.len() <= 8 {
+            return none;
+        }
+        let place = |x: F, shift: f32| x.fma(F::splat(FINEST), F::splat(shift));
+        let [x, y, z] = [place(point.0, self.shift[0]), place(point.1, self.shift[1]), place(point.2, self.shift[2])];
+        let zero = F::splat(0.0);
+        let (least, most) = (x.min(y).min(z), x.max(y).max(z));
+        let mut on = mask & zero.le(least) & most.lt(F::splat(MOST)) & x.le(x) & y.le(y) & z.le(z);
+        // The bits below the root's, the highest one first.
+        let up = F::U::splat(1 << (32 - self.height));
+        let whole = F::splat(1.0 / (1u32 << self.height) as f32);
+        let mut bits = [none; 3];
+        for ((bits, x), root) in bits.iter_mut().zip([x, y, z]).zip(self.root) {
+            let x = F::select(on, x, zero);
+            on = on & (x * whole).to_int().eq(F::U::splat(root));
+            *bits = x.to_int() * up;
+        }
+        let mut cell = F::U::select(on, F::U::splat(1), none);
+        for _ in 0..self.height {
+            let [x, y, z] = bits;
+            let octant = x.shr::<31>() + y.shr::<31>().shl::<1>() + z.shr::<31>().shl::<2>();
+            bits = [x.shl::<1>(), y.shl::<1>(), z.shl::<1>()];
+            let child = F::U::gather(&self.children, cell.shl::<3>() + octant);
+            on = on & !child.eq(none);
+            if !on.any() {
+                break;
+            }
+            cell = F::U::select(on, child, cell);
+        }
+        cell
     }
 
     /// Coordinates in cells of the finest level.
-    #[inline(always)]
     fn place(&self, point: [f32; 3]) -> Option<[u32; 3]> {
         let place = [0, 1, 2].map(|axis| point[axis].mul_add(FINEST, self.shift[axis]));
         place.iter().all(|x| (0.0..MOST).contains(x)).then(|| place.map(|x| x as u32))
     }
-
-    /// Where in the table a key is, or would be.
-    #[inline(always)]
-    fn position(&self, key: u64) -> usize {
-        let mask = self.table.len() - 1;
-        let mut at = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize & mask;
-        while self.table[at].key != key && self.table[at].key != 0 {
-            at = (at + 1) & mask;
-        }
-        at
-    }
-}
-
-/// A number for a cell of a level, never 0.
-#[inline(always)]
-fn key_of(place: [u32; 3], level: u32) -> u64 {
-    let [x, y, z] = place.map(|x| u64::from(x >> (LEVELS - 1 - level)));
-    ((x << BITS | y) << BITS | z) << 4 | u64::from(level + 1)
 }
 
 /// The lower 21 bits, two places between any two.
@@ -186,6 +232,11 @@ fn spread(x: u64) -> u64 {
     let x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
     let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
     (x | x << 2) & 0x1249_2492_4924_9249
+}
+
+/// Every third of 21 bits, the inverse of [`spread`].
+fn gathered(x: u64) -> u32 {
+    (0..21).map(|k| ((x >> (3 * k)) as u32 & 1) << k).sum()
 }
 
 /// A run of photons that get one sphere, and their bounds.

@@ -1,5 +1,5 @@
-//! Rays aimed at where light comes from over mirrors, glass and glossy surfaces, from the first rough vertices of
-//! paths.
+//! Rays aimed at where light comes from over mirrors, glass and glossy surfaces, from the rough vertices of paths: from
+//! the first ones, and from [`LATE_AIMS`] behind them, so that there is room for all.
 //!
 //! From a rough vertex x one more ray is cast, by a chance that goes with the strength of that light, into a cone
 //! around one of the spheres that the guide has for the place ([`crate::engine::guide`]), or around a caster; what it
@@ -12,11 +12,16 @@
 //! and each counts by the balance heuristic (Veach 1997, 9.2.2): the aimed ray f cos / (p + a), the own one by p / (p +
 //! a). The chance c_k of a sphere goes with its share of the photons' flux (casters: with their solid angle) and a
 //! bound on the cosine. Spheres that x is in or near to are not aimed at: the own ray meets them anyway.
+//!
+//! Roulette knows nothing of it: that the own ray of a later vertex goes on is by a chance that its weight takes out
+//! again, so that both ways sum to one whatever the chance. What a path sees through several sides of glass is aimed
+//! from, too; without it the brightest pixels were those of lamps over a mirror or glass from a surface that is itself
+//! seen over one (docs/noise.md).
 
 use super::materials::TWO_PI;
 use super::points::{PairPoints, PixelOf};
 use super::share::bsdf_of;
-use crate::engine::batch::{Batch, RAISED, path};
+use crate::engine::batch::{BRANCHING, Batch, LATE_AIMS, RAISED, path};
 use crate::engine::guide::cells::{SPHERES, SphereRows};
 use crate::engine::guide::{Guide, MOST_CASTERS};
 use crate::lanes::{Bits, Lanes, Mask};
@@ -24,8 +29,6 @@ use crate::math::V3;
 use crate::sampling::sampler::Purpose;
 use crate::scene::NONE;
 
-/// Rays are aimed from this many of a path's first vertices; before roulette, which would have to be reckoned with.
-pub const AIMS_UNTIL: u32 = 3;
 /// Chance that a ray is aimed where the guide has nothing, or knows of faint light only.
 const LEAST_CHANCE: f32 = 0.1;
 /// With s, the strength of light over mirrors and glass over what the lights send to the middle of a scene, the chance
@@ -87,41 +90,37 @@ struct Targets<'a, F: Lanes> {
 impl<'a, F: Lanes> Targets<'a, F> {
     #[inline(always)]
     fn new(guide: &'a Guide, p: V3<F>, n: V3<F>, mask: F::M) -> Self {
-        let (mut points, mut rows) = ([[0.0; 32]; 3], [0; 32]);
-        p.0.store(&mut points[0]);
-        p.1.store(&mut points[1]);
-        p.2.store(&mut points[2]);
-        let mut bits = mask.bits();
-        while bits != 0 {
-            let lane = bits.trailing_zeros() as usize;
-            bits &= bits - 1;
-            rows[lane] = guide.cells.find([points[0][lane], points[1][lane], points[2][lane]]);
-        }
-        let row = F::U::load(&rows);
-        let c = F::splat;
-        let strength = F::gather(&guide.cells.rows.strength, row);
-        let chance = (strength * c(STEEPNESS) / (strength + c(1.0))).max(c(LEAST_CHANCE)).min(c(1.0));
-        Targets { guide, p, n, row, chance }
+        let (cell, chance) = cell_and_chance(guide, p, mask);
+        Targets { guide, p, n, row: cell * F::U::splat(SPHERES as u32), chance }
     }
 
     /// Sphere k of the cell, and its weight.
     #[inline(always)]
     fn of_cell(&self, k: usize) -> (Cone<F>, F) {
-        let SphereRows { center, radius2, weight, .. } = &self.guide.cells.rows;
+        let SphereRows { spheres, weight } = &self.guide.cells.rows;
         let row = self.row + F::U::splat(k as u32);
-        let center = V3(F::gather(&center[0], row), F::gather(&center[1], row), F::gather(&center[2], row));
-        let cone = Cone::new(center, F::gather(radius2, row), self.p, self.n);
+        let [x, y, z, radius2] = F::gather4(spheres, row.shl::<2>());
+        let cone = Cone::new(V3(x, y, z), radius2, self.p, self.n);
         (cone, F::gather(weight, row) * cone.highest)
     }
 
     /// Caster k, and its weight.
     #[inline(always)]
     fn of_caster(&self, k: usize) -> (Cone<F>, F) {
-        let SphereRows { center, radius2, .. } = &self.guide.casters;
-        let center = V3::<F>::splat([center[0][k], center[1][k], center[2][k]]);
-        let cone = Cone::new(center, F::splat(radius2[k]), self.p, self.n);
+        let [x, y, z, radius2] = self.guide.casters.splat(k);
+        let cone = Cone::new(V3(x, y, z), radius2, self.p, self.n);
         (cone, cone.width * cone.highest)
     }
+}
+
+/// The guide's cells around points, and the chances that rays are aimed from there.
+#[inline(always)]
+fn cell_and_chance<F: Lanes>(guide: &Guide, p: V3<F>, mask: F::M) -> (F::U, F) {
+    let c = F::splat;
+    let cell = guide.cells.find(p, mask);
+    let strength = F::gather(&guide.cells.strength, cell);
+    let chance = (strength * c(STEEPNESS) / (strength + c(1.0))).max(c(LEAST_CHANCE)).min(c(1.0));
+    (cell, chance)
 }
 
 /// The shares of cell and casters in the aimed rays, from the sums of their weights: one goes without the other.
@@ -162,28 +161,50 @@ pub fn density<F: Lanes>(guide: &Guide, p: V3<F>, n: V3<F>, w: V3<F>, mask: F::M
         * (targets.chance * F::splat(1.0 / TWO_PI))
 }
 
+/// Leaves those of `batch.aimers` from which rays are aimed this time. `batch.next`, in which nothing is between two
+/// vertices, has their cells in place of primitives, their chances in place of densities, and in place of `eta2` the
+/// numbers that were below them.
+#[inline(always)]
+fn leave_by_chance<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
+    let choices = PairPoints::<F>::new(seed, Purpose::Aim(vertex), &batch.items);
+    let (aimers, drawn) = (&mut batch.aimers, &mut batch.next);
+    let mut left = 0;
+    for i in (0..aimers.len).step_by(F::N) {
+        let valid = F::first(aimers.len - i);
+        let pixel = PixelOf::<F>::new(F::U::load(&aimers.slot[i..]), &batch.pixels);
+        let (choice, _) = choices.points(&pixel);
+        let (cell, chance) = cell_and_chance(guide, V3::<F>::load(&aimers.start, i), valid);
+        let aims = valid & choice.lt(chance);
+        cell.compress(aims, &mut drawn.from_primitive[left..]);
+        chance.compress(aims, &mut drawn.pdf[left..]);
+        choice.compress(aims, &mut drawn.eta2[left..]);
+        if left < i || aims.count() < F::N {
+            aimers.keep::<F>(i, aims, left);
+        }
+        left += aims.count();
+    }
+    aimers.len = left;
+}
+
 /// Adds rays aimed from `batch.aimers` to `batch.paths`.
 #[inline(always)]
 pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
-    let choices = PairPoints::<F>::new(seed, Purpose::Aim(vertex), &batch.items);
+    leave_by_chance::<F>(guide, seed, vertex, batch);
     let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection(vertex), &batch.items);
-    let (aimers, paths) = (&batch.aimers, &mut batch.paths);
+    let (aimers, paths, drawn) = (&batch.aimers, &mut batch.paths, &batch.next);
     let before = paths.len;
     let casters = guide.casters.count().min(MOST_CASTERS);
     for i in (0..aimers.len).step_by(F::N) {
         let slot = F::U::load(&aimers.slot[i..]);
         let pixel = PixelOf::<F>::new(slot, &batch.pixels);
-        let (choice, _) = choices.points(&pixel);
         let mut aimed = F::first(aimers.len - i);
         let p = V3::<F>::load(&aimers.start, i);
         let n = V3::<F>::load(&aimers.normal, i);
-        let targets = Targets::new(guide, p, n, aimed);
-        aimed = aimed & choice.lt(targets.chance);
-        if !aimed.any() {
-            continue;
-        }
+        let row = F::U::load(&drawn.from_primitive[i..]) * F::U::splat(SPHERES as u32);
+        let (choice, chance) = (F::load(&drawn.eta2[i..]), F::load(&drawn.pdf[i..]));
+        let targets = Targets { guide, p, n, row, chance };
         let none = Cone { axis: n, width: one, highest: zero };
         let mut cones = [(none, zero); SPHERES + MOST_CASTERS];
         let mut sums = [zero; 2];
@@ -237,7 +258,8 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         let primitive = F::U::select(sinks, F::U::splat(NONE), F::U::load(&aimers.primitive[i..]));
         let sum = slot & F::U::splat(path::SUM);
         let shared = !(slot & F::U::splat(path::SHARED)).eq(F::U::splat(0));
-        let state = F::U::select(shared, sum, sum | F::U::splat(path::OWN)) | F::U::splat(path::AIMED);
+        let late = if vertex < BRANCHING { 0 } else { LATE_AIMS * path::LATE };
+        let state = F::U::select(shared, sum, sum | F::U::splat(path::OWN)) | F::U::splat(path::AIMED | late);
         let k = paths.len;
         p.compress(aimed, &mut paths.origin, k);
         wi.compress(aimed, &mut paths.direction, k);

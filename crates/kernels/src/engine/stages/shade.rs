@@ -12,7 +12,7 @@ use super::materials::{Bsdf, reflect_bent};
 use super::points::{PairPoints, PixelOf};
 use super::share::{add_members, add_suffixes};
 use super::surface::{Surface, surface};
-use crate::engine::batch::{BRANCHING, Batch, Columns, path};
+use crate::engine::batch::{BRANCHING, Batch, Columns, LATE_AIMS, path};
 use crate::engine::pass::{Pass, Task};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
@@ -54,7 +54,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     // A member's second vertex needs a scattering of its own.
     let joins = pass.reuse && vertex < scene.max_bounces;
     // What a ray aimed from the last vertex met could not scatter.
-    let aims_here = guide.is_some() && vertex < aim::AIMS_UNTIL && vertex < scene.max_bounces;
+    let aims_here = guide.is_some() && vertex < scene.max_bounces;
     let (aimers, branches) = (&mut batch.aimers, &mut batch.branches);
     next.len = 0;
     branches.len = 0;
@@ -184,7 +184,7 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
                 throughput = V3::select(shared, V3::grey(one), throughput);
                 eta2 = F::select(shared, one, eta2);
             }
-            let bare = slot & F::U::splat(path::SLOT);
+            let bare = slot & F::U::splat(path::SLOT | path::LATES);
             let own = F::U::select(shared, bare | F::U::splat(path::SHARED), bare | F::U::splat(path::OWN));
             slot = F::U::select(found, own, slot);
         }
@@ -323,7 +323,12 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let untouched = rough & !has(slot, path::SHARED | path::MAKER | path::OWN);
         slot = F::U::select(untouched, slot | F::U::splat(path::OWN), slot);
         if aims_here {
-            let aims = surfaces & bsdf.packs() & zero.lt(colored.max_component());
+            let mut aims = surfaces & bsdf.packs() & zero.lt(colored.max_component());
+            if vertex >= BRANCHING {
+                let late = F::U::splat(path::LATE);
+                aims = aims & (slot & F::U::splat(path::LATES)).lt(late * F::U::splat(LATE_AIMS));
+                slot = F::U::select(aims, slot + late, slot);
+            }
             film.compress(aims, &mut aimers.film[aimers.len..]);
             add_members(aimers, &bsdf, &s, wo, colored, eta2, slot, primitive, instance, aims);
             slot = F::U::select(aims, slot | F::U::splat(path::AIMS), slot);

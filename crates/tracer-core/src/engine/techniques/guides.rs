@@ -11,7 +11,6 @@ use std::any::Any;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
-use tracer_kernels::engine::AIMS_UNTIL;
 use tracer_kernels::engine::batch::Batch;
 use tracer_kernels::engine::guide::casters::Casters;
 use tracer_kernels::engine::guide::cells::{Cells, SphereRows};
@@ -137,11 +136,9 @@ impl Technique for Guides {
 
     /// Aims rays.
     fn after_vertex(&self, engine: Engine<'_>, pass: Pass<'_>, vertex: Vertex, batch: &mut Batch) {
-        if vertex.number < AIMS_UNTIL {
-            let start = Instant::now();
-            engine.kernels.aim(&self.guide, pass.seed, vertex.number, batch);
-            batch.watch.costs.caustics += start.elapsed().as_secs_f64();
-            batch.watch.lap(Stage::Aim);
-        }
+        let start = Instant::now();
+        engine.kernels.aim(&self.guide, pass.seed, vertex.number, batch);
+        batch.watch.costs.caustics += start.elapsed().as_secs_f64();
+        batch.watch.lap(Stage::Aim);
     }
 }

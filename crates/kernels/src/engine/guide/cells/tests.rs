@@ -1,4 +1,6 @@
 use super::*;
+use crate::lanes::ArrayF;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Photons on a floor, half of it lit from each of two places, and one photon from a third.
 fn photons() -> Vec<Photon> {
@@ -15,10 +17,23 @@ fn photons() -> Vec<Photon> {
     photons
 }
 
+type One = ArrayF<1>;
+
+/// The number of the finest cell around a point.
+fn found(cells: &Cells, point: [f32; 3]) -> u32 {
+    let mut out = [0];
+    cells.find(V3::<One>::splat(point), One::first(1)).store(&mut out);
+    out[0]
+}
+
 fn spheres(cells: &Cells, point: [f32; 3]) -> Vec<([f32; 3], f32, f32)> {
-    let (first, rows) = (cells.find(point) as usize, &cells.rows);
-    let sphere = |k: usize| (rows.center.each_ref().map(|c| c[k]), rows.radius2[k].sqrt(), rows.weight[k]);
+    let (first, rows) = (found(cells, point) as usize * SPHERES, &cells.rows);
+    let sphere = |k: usize| (center(rows, k), rows.spheres[4 * k + 3].sqrt(), rows.weight[k]);
     (first..first + SPHERES).map(sphere).filter(|s| s.2 > 0.0).collect()
+}
+
+fn center(rows: &SphereRows, k: usize) -> [f32; 3] {
+    [0, 1, 2].map(|axis| rows.spheres[4 * k + axis])
 }
 
 /// What a place is lit from is in its spheres: every photon of its cell came from within one.
@@ -37,26 +52,46 @@ fn spheres_hold_where_light_comes_from() {
     add_spheres(&mut looked_at, &mut rows);
     assert_eq!(rows.count(), SPHERES);
     for photon in looked_at {
-        let holds = |k: usize| distance2(rows.center.each_ref().map(|c| c[k]), photon.from) <= rows.radius2[k];
+        let holds = |k: usize| distance2(center(&rows, k), photon.from) <= rows.spheres[4 * k + 3];
         assert!((0..SPHERES).any(holds), "{photon:?}");
     }
 }
 
-/// The finest cell is found; where there is none, no sphere; a rare way is in some cell's spheres.
+/// The finest cell that has enough photons is found, and by nobody else; where there is none, no sphere. Wherever the
+/// borders lie: with some seeds the coarsest cells have only a far coarser one in common.
 #[test]
-fn cells_are_found_by_halving() {
+fn the_finest_cells_are_found() {
     let photons = photons();
-    let cells = Cells::new(1, &photons, 1.0);
-    assert_eq!(cells.find([100.0, 0.0, 0.0]), 0);
-    assert_eq!(Cells::new(1, &[], 1.0).find([0.0; 3]), 0);
-    assert!(spheres(&cells, [100.0, 0.0, 0.0]).is_empty());
-    for photon in photons.iter().step_by(37) {
-        let place = cells.place(photon.point).expect("in the octree");
-        let there = |level: &u32| cells.table[cells.position(key_of(place, *level))].key != 0;
-        let finest = (0..LEVELS).take_while(there).last().expect("the coarsest cell holds all");
-        assert!((finest + 1..LEVELS).all(|level| !there(&level)), "a cell without the coarser ones around it");
-        assert_eq!(cells.find(photon.point), cells.table[cells.position(key_of(place, finest))].row);
+    let mut heights = BTreeSet::new();
+    for seed in 0..200 {
+        let cells = Cells::new(seed, &photons, 1.0);
+        heights.insert(cells.height);
+        // Above the coarsest level cells have nothing.
+        assert_eq!(cells.strength[found(&cells, [100.0, 0.0, 0.0]) as usize], 0.0);
+        assert_eq!(found(&cells, [f32::NAN, 0.0, 0.0]), 0);
+        assert_eq!(found(&cells, [1e9, 0.0, 0.0]), 0);
+        assert_eq!(found(&Cells::new(seed, &[], 1.0), [0.0; 3]), 0);
+        assert!(spheres(&cells, [100.0, 0.0, 0.0]).is_empty());
+        if seed % 20 != 0 {
+            continue;
+        }
+        let places: Vec<[u32; 3]> =
+            photons.iter().map(|photon| cells.place(photon.point).expect("in the octree")).collect();
+        let mut of_cell: BTreeMap<u32, (u32, [u32; 3])> = BTreeMap::new();
+        for (photon, place) in photons.iter().zip(&places).step_by(37) {
+            let in_cell =
+                |level: u32, other: &&[u32; 3]| (0..3).all(|k| (other[k] ^ place[k]) >> (LEVELS - 1 - level) == 0);
+            let is_there = |level: &u32| places.iter().filter(|other| in_cell(*level, other)).count() >= ENOUGH;
+            let finest = (0..LEVELS).take_while(is_there).last().expect("the coarsest cells hold enough");
+            let cell = (finest, place.map(|x| x >> (LEVELS - 1 - finest)));
+            let number = found(&cells, photon.point);
+            assert!(number > 0 && *of_cell.entry(number).or_insert(cell) == cell, "{number}: {cell:?}");
+            assert!(cells.strength[number as usize] > 0.0);
+        }
+        let different: BTreeSet<_> = of_cell.values().collect();
+        assert_eq!(different.len(), of_cell.len(), "two numbers of one cell");
     }
+    assert!(heights.len() > 2, "{heights:?}");
 }
 
 /// A cell's strength is its flux over its width squared and the unit: that of a floor of 20000 photons in a unit
@@ -64,7 +99,7 @@ fn cells_are_found_by_halving() {
 #[test]
 fn strength_is_irradiance() {
     let cells = Cells::new(1, &photons(), 20_000.0);
-    let strength = |x: f32| f64::from(cells.rows.strength[cells.find([x, 0.0, 0.1]) as usize]);
+    let strength = |x: f32| f64::from(cells.strength[found(&cells, [x, 0.0, 0.1]) as usize]);
     let mean = (0..40).map(|k| strength(-0.45 + 0.02 * k as f32)).sum::<f64>() / 40.0;
     assert!((0.5..2.0).contains(&mean), "{mean}");
 }
