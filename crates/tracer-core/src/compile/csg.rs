@@ -3,6 +3,8 @@
 //! Surfaces of different operands that are one and the same get the same numbers here, once for all copies: so lines
 //! meet them at the same places to the last bit, and where faces coincide nothing is between them.
 
+mod shining;
+
 use super::assets::Sources;
 use super::bodies::{Extent, Side, UnitBody};
 use super::curved::{Written, written};
@@ -10,12 +12,13 @@ use super::materials::MaterialBuilder;
 use super::placing::{Given, Maps, Subject, check, place, place_all};
 use super::settled::Settled;
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
-use scene_format::desc::{Emissive, MaterialRef, Object, Radiometric, no_power_of_solid};
-use scene_format::diagnostic::{Span, Spanned};
+use scene_format::desc::{Emissive, MaterialRef, Object};
+use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
-use std::collections::BTreeMap;
+pub use shining::Lit;
+use shining::amount_of_whole;
 use std::sync::Arc;
-use tracer_kernels::scene::{CurvedLight, Frame, Light, NONE, Operand, Shape, Solids, Step};
+use tracer_kernels::scene::{Frame, NONE, Operand, Shape, Solids, Step};
 use tracer_kernels::shapes::csg::{Operation, Part, Surface};
 use tracer_kernels::shapes::{Solid, UnitShape};
 
@@ -61,24 +64,6 @@ pub struct SolidObject {
 
 /// Lower and upper corner.
 type Box3 = [DVec3; 2];
-
-/// The lights that solids are added to.
-pub struct Lit<'a> {
-    /// Those of the scene.
-    pub lights: &'a mut Vec<Light>,
-    /// The unit of their radiance.
-    pub radiance_unit: f64,
-    /// The groups of the lights of solids that have one.
-    pub groups: &'a mut BTreeMap<u32, String>,
-}
-
-/// What a material shines; nothing where it says that of a whole lamp, which is told before.
-fn radiance(emissive: &Emissive) -> [f64; 3] {
-    match emissive.radiometric() {
-        Radiometric::Radiance(radiance) => radiance,
-        Radiometric::Intensity(_) | Radiometric::Power(_) => [0.0; 3],
-    }
-}
 
 /// Surfaces of solids that a scene may have, those of copies counted: 2 GB.
 const MOST_ROWS: usize = 1 << 24;
@@ -149,17 +134,6 @@ pub fn noun(object: &Object) -> &'static str {
         Object::Intersection(_) => "intersection",
         _ => "difference",
     }
-}
-
-/// The fault of a solid, or of a shape in one, that shines by an amount for all of it.
-fn amount_of_whole(object: &Spanned<Object>, emissive: &Emissive) -> Option<Diagnostic> {
-    let what = match &object.value {
-        Object::Union(_) => "a union",
-        Object::Intersection(_) => "an intersection",
-        Object::Difference(_) => "a difference",
-        _ => "a part of a solid",
-    };
-    no_power_of_solid(what, emissive, object.span)
 }
 
 /// What reads the parts of a solid.
@@ -486,22 +460,9 @@ impl SolidObject {
         })
     }
 
-    /// Whether an operand shines.
-    pub fn shines(&self) -> bool {
-        self.operands.iter().any(|operand| operand.emissive.is_some())
-    }
-
     /// A box around a copy.
     pub fn extent(&self, map: &DAffine3) -> Extent {
         Extent::of_box(bounds(&self.node, &self.operands, &DAffine3::IDENTITY), map)
-    }
-
-    /// What its operands shine that do, in the scene's own unit, and where the first says it; `None`: none does.
-    pub fn radiances(&self) -> Option<(Vec<[f64; 3]>, Span)> {
-        let shines = || self.operands.iter().filter_map(|operand| operand.emissive.as_ref());
-        let first = shines().next()?;
-        Some((shines().map(|emissive| radiance(emissive)).collect(), first.amount.span))
-            .filter(|_| !self.maps.is_empty())
     }
 
     /// Adds its copies to the shapes of the scene, and its operands that shine to the lights. `written`, where a
@@ -551,40 +512,6 @@ impl SolidObject {
             let (placement, object) = (DAffine3::IDENTITY, self.number);
             let (light, is_plain) = (NONE, false);
             shapes.push(Shape { unit, placement, material, light, object, copy, is_plain, coordinates: 0 });
-        }
-    }
-
-    /// Adds the lights of a copy, a solid that is the shape of this number.
-    fn shine(
-        &self,
-        frame: &Frame,
-        map: &DAffine3,
-        (solid, shape): (&Solid, u32),
-        all: &mut [Operand],
-        lit: &mut Lit<'_>,
-    ) {
-        for (index, operand) in (solid.operands[0]..).zip(&self.operands) {
-            let Some(emissive) = &operand.emissive else { continue };
-            // What is left of it lies in its own box, and in that of the solid.
-            let whole = *map * operand.moved * operand.local;
-            let [low, high] = if operand.unit.is_endless() { behind(&whole) } else { operand.unit.bounds(&whole) };
-            let [a, b] = [low, high].map(|corner| frame.point(corner));
-            let [low, high] = [a.min(b).max(solid.bounds[0]), a.max(b).min(solid.bounds[1])];
-            if !low.cmple(high).all() {
-                continue;
-            }
-            let own = Solid { operands: [index, 1], bounds: [low, high], ..*solid };
-            let light = lit.lights.len() as u32;
-            all[index as usize].light = light;
-            lit.lights.push(Light::Curved(CurvedLight {
-                shape,
-                unit: UnitShape::Solid(own),
-                placement: DAffine3::IDENTITY,
-                radiance: radiance(emissive).map(|x| x / lit.radiance_unit),
-                two_sided: emissive.two_sided,
-                offset: 0.0,
-            }));
-            lit.groups.extend(emissive.group.as_str().map(|group| (light, group.to_owned())));
         }
     }
 
