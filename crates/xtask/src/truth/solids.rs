@@ -49,8 +49,10 @@ fn placed(
     let transform = if once_in(random, 2) { about(steps(middle, radius, random)) } else { Vec::new() };
     let mut solid = solid(middle, radius, &material, 2, random);
     *solid.material_mut() = inline(material);
-    if let (Some(last), Some(operands)) = (last, solid.operands_mut()) {
-        operands.0.iter_mut().next_back().map(|shape| *shape.value.material_mut() = inline(last));
+    if let (Some(last), Some(operands)) = (last, solid.operands_mut())
+        && let Some(shape) = operands.0.last_mut()
+    {
+        *shape.value.material_mut() = inline(last);
     }
     *solid.transform_mut() = transform;
     *solid.placements_mut() = placements;
