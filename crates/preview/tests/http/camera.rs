@@ -93,9 +93,9 @@ fn every_layer_is_shown_and_a_pinned_state_stays() {
     for name in names {
         let answer = sandbox.get(&format!("frame?layer={}", name.as_str().expect("a name")));
         assert_eq!((answer.status, answer.body.len()), (200, 24 * 16 * 4), "{name}");
-        // There is no lamp, one thing that nothing else lights, and as many samples everywhere.
+        // There is no lamp, one thing that nothing else lights, as many samples everywhere, and nothing moves.
         let one = answer.body.chunks(4).all(|pixel| pixel == &answer.body[..4]);
-        assert_eq!(one, ["emission", "indirect", "samples"].iter().any(|flat| name == flat), "{name}");
+        assert_eq!(one, ["emission", "indirect", "samples", "motion"].iter().any(|flat| name == flat), "{name}");
     }
     let pin = sandbox.post("pin", "{}").json()["pin"].clone();
     sandbox.write("scene.ron", SCENE.replace("0.8", "0.1"));
