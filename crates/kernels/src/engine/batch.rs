@@ -30,10 +30,10 @@ pub const LATE_AIMS: u32 = 2;
 
 /// Room for all paths of a batch that go both ways wherever they may (see `stages::shade`) and have a ray aimed
 /// wherever they may (`stages::aim`), and behind every array for one vector more: a compressing store writes whole
-/// registers. A path's own ray has one more at each of its first vertices, at glass or at a rough surface, and so have
-/// those from glass, and aimed ones after a mirror: seven. Behind these vertices each may have [`LATE_AIMS`] more,
-/// which have none.
-pub const CAPACITY: usize = (1 + 2 * BRANCHING as usize) * (1 + LATE_AIMS as usize) * PATHS + 64;
+/// registers. At each of its first vertices a path becomes two at most: glass sends it both ways, and from a rough
+/// surface, glossy ones that an aimed ray has met among them, one is aimed. Behind these vertices each may have
+/// [`LATE_AIMS`] more, which have none.
+pub const CAPACITY: usize = (1 << BRANCHING) * (1 + LATE_AIMS as usize) * PATHS + 64;
 
 /// A value for each path. The compiler knows the length, so that a place is checked once for all columns.
 pub type Column<T> = Box<[T; CAPACITY]>;

@@ -21,7 +21,7 @@
 use super::materials::TWO_PI;
 use super::points::{PairPoints, PixelOf};
 use super::share::bsdf_of;
-use crate::engine::batch::{BRANCHING, Batch, LATE_AIMS, RAISED, path};
+use crate::engine::batch::{BRANCHING, Batch, CAPACITY, LATE_AIMS, RAISED, path};
 use crate::engine::guide::cells::{SPHERES, SphereRows};
 use crate::engine::guide::{Guide, MOST_CASTERS};
 use crate::lanes::{Bits, Lanes, Mask};
@@ -113,6 +113,26 @@ impl<'a, F: Lanes> Targets<'a, F> {
     }
 }
 
+/// Cones and their weights: those of a cell, then those of the casters.
+type Cones<F> = [(Cone<F>, F); SPHERES + MOST_CASTERS];
+
+impl<F: Lanes> Targets<'_, F> {
+    /// All spheres, so many casters among them, and the sums of the weights of both kinds.
+    #[inline(always)]
+    fn all(&self, casters: usize) -> (Cones<F>, [F; 2]) {
+        let zero = F::splat(0.0);
+        let none = Cone { axis: self.n, width: F::splat(1.0), highest: zero };
+        let mut cones = [(none, zero); SPHERES + MOST_CASTERS];
+        let mut sums = [zero; 2];
+        for (k, cone) in cones.iter_mut().enumerate().take(SPHERES + casters) {
+            *cone = if k < SPHERES { self.of_cell(k) } else { self.of_caster(k - SPHERES) };
+            let sum = &mut sums[usize::from(k >= SPHERES)];
+            *sum = *sum + cone.1;
+        }
+        (cones, sums)
+    }
+}
+
 /// The guide's cells around points, and the chances that rays are aimed from there.
 #[inline(always)]
 fn cell_and_chance<F: Lanes>(guide: &Guide, p: V3<F>, mask: F::M) -> (F::U, F) {
@@ -191,7 +211,13 @@ fn leave_by_chance<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut 
 pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
-    leave_by_chance::<F>(guide, seed, vertex, batch);
+    if batch.aimers.len > 0 {
+        leave_by_chance::<F>(guide, seed, vertex, batch);
+    }
+    if batch.aimers.len == 0 {
+        return;
+    }
+    debug_assert!(batch.paths.len + batch.aimers.len <= CAPACITY - 64, "more paths than there is room for");
     let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection(vertex), &batch.items);
     let (aimers, paths, drawn) = (&batch.aimers, &mut batch.paths, &batch.next);
     let before = paths.len;
@@ -205,14 +231,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         let row = F::U::load(&drawn.from_primitive[i..]) * F::U::splat(SPHERES as u32);
         let (choice, chance) = (F::load(&drawn.eta2[i..]), F::load(&drawn.pdf[i..]));
         let targets = Targets { guide, p, n, row, chance };
-        let none = Cone { axis: n, width: one, highest: zero };
-        let mut cones = [(none, zero); SPHERES + MOST_CASTERS];
-        let mut sums = [zero; 2];
-        for (k, cone) in cones.iter_mut().enumerate().take(SPHERES + casters) {
-            *cone = if k < SPHERES { targets.of_cell(k) } else { targets.of_caster(k - SPHERES) };
-            let sum = &mut sums[usize::from(k >= SPHERES)];
-            *sum = *sum + cone.1;
-        }
+        let (cones, sums) = targets.all(casters);
         let cones = &cones[..SPHERES + casters];
         let (of_cell, of_casters) = shares(sums[0], sums[1]);
         let scales = [over(of_cell, sums[0]), over(of_casters, sums[1])];

@@ -103,3 +103,26 @@ fn strength_is_irradiance() {
     let mean = (0..40).map(|k| strength(-0.45 + 0.02 * k as f32)).sum::<f64>() / 40.0;
     assert!((0.5..2.0).contains(&mean), "{mean}");
 }
+
+/// Lanes side by side find what each finds alone: in cells of all levels, in none, and outside of all.
+#[test]
+fn lanes_find_what_each_finds_alone() {
+    type Eight = ArrayF<8>;
+    let photons = photons();
+    for seed in [1, 60, 140] {
+        let cells = Cells::new(seed, &photons, 1.0);
+        for k in 0..500u32 {
+            let number =
+                |lane: usize, axis: u32| (hash3(9, 8 * k + lane as u32, axis) >> 40) as f32 / (1u32 << 24) as f32;
+            let points: [[f32; 3]; 8] = std::array::from_fn(|lane| {
+                let far = [1.0, 1.0, 1.0, 3.0, 200.0, 1e7, 1.0, 1.0][lane];
+                [0, 1, 2].map(|axis| far * (number(lane, axis) - 0.5) * if axis == 1 { 0.01 } else { 1.0 })
+            });
+            let column = |axis: usize| Eight::load(&points.map(|point| point[axis]));
+            let mut out = [0; 8];
+            cells.find(V3(column(0), column(1), column(2)), Eight::first(7)).store(&mut out);
+            let alone: [u32; 8] = std::array::from_fn(|lane| if lane < 7 { found(&cells, points[lane]) } else { 0 });
+            assert_eq!(out, alone, "{points:?}");
+        }
+    }
+}
