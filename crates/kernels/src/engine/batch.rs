@@ -5,6 +5,7 @@
 //! Z-order) of item s / 64; slots whose pixel lies outside of the picture have no path. A slot's radiance is summed in
 //! the order of its path's vertices, whatever the schedule.
 
+use super::pages::Pages;
 use super::watch::Watch;
 use crate::bvh::Rays;
 use crate::lanes::{Bits, Lanes};
@@ -14,6 +15,7 @@ use crate::report::Counters;
 use crate::sampling::blocks::{ITEM_PIXELS, Item, Pixels};
 pub use crate::sampling::blocks::{ITEMS, PATHS};
 use crate::scene::NONE;
+use bytemuck::{Pod, Zeroable};
 
 /// At so many of its first vertices a path from the camera that has met mirrors and glass only goes both ways at glass:
 /// what one of them shows, often the lamp, is far brighter than what the other does.
@@ -35,27 +37,13 @@ pub const LATE_AIMS: u32 = 2;
 /// [`LATE_AIMS`] more, which have none.
 pub const CAPACITY: usize = (1 << BRANCHING) * (1 + LATE_AIMS as usize) * PATHS + 64;
 
-/// A value for each path. The compiler knows the length, so that a place is checked once for all columns.
-pub type Column<T> = Box<[T; CAPACITY]>;
+/// A value for each path. The compiler knows the length, so that a place is checked once for all columns. Structures of
+/// columns lie on pages of their own ([`Pages`]) and start with these, so that each begins at a whole vector, and 256
+/// bytes further within a page than the one before: rows of many columns have places of their own in the L1 cache.
+pub type Column<T> = [T; CAPACITY];
 
 /// Three columns: x, y, z or r, g, b.
 pub type Columns = [Column<f32>; 3];
-
-fn filled<T: Copy>(value: T) -> Column<T> {
-    let Ok(column) = vec![value; CAPACITY].into_boxed_slice().try_into() else {
-        unreachable!("as long as it was made")
-    };
-    column
-}
-fn floats() -> Column<f32> {
-    filled(0.0)
-}
-fn words() -> Column<u32> {
-    filled(0)
-}
-fn columns() -> Columns {
-    [floats(), floats(), floats()]
-}
 
 /// What the word [`Paths::slot`] holds beside the slot.
 pub mod path {
@@ -85,9 +73,9 @@ pub mod path {
 }
 
 /// The living paths of a batch: the ray that each is about to trace and what it carries.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
 pub struct Paths {
-    /// Number of paths.
-    pub len: usize,
     /// Origin.
     pub origin: Columns,
     /// Unit direction.
@@ -113,25 +101,11 @@ pub struct Paths {
     pub from_primitive: Column<u32>,
     /// Its instance.
     pub from_instance: Column<u32>,
+    /// Number of paths.
+    pub len: usize,
 }
 
 impl Paths {
-    fn new() -> Self {
-        Paths {
-            len: 0,
-            origin: columns(),
-            direction: columns(),
-            throughput: columns(),
-            eta2: floats(),
-            pdf: floats(),
-            normal: columns(),
-            film: floats(),
-            slot: words(),
-            from_primitive: filled(NONE),
-            from_instance: filled(NONE),
-        }
-    }
-
     /// Leaves those from `from` on that have a bit set in the mask, which is for one vector of camera rays.
     #[inline(always)]
     pub fn keep<F: Lanes>(&mut self, from: usize, mask: F::M) {
@@ -163,6 +137,8 @@ impl Paths {
 }
 
 /// What the rays of [`Paths`] hit.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
 pub struct Hits {
     /// Ray parameter; infinite: nothing.
     pub t: Column<f32>,
@@ -176,9 +152,9 @@ pub struct Hits {
 }
 
 /// Shadow rays: from surfaces to points on lights.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
 pub struct Shadows {
-    /// Number of rays.
-    pub len: usize,
     /// Origin.
     pub origin: Columns,
     /// Unit direction.
@@ -199,47 +175,42 @@ pub struct Shadows {
     pub target_instance: Column<u32>,
     /// 1: something is between.
     pub occluded: Column<u32>,
+    /// Number of rays.
+    pub len: usize,
 }
 
 impl Shadows {
-    fn new() -> Self {
-        Shadows {
-            len: 0,
-            origin: columns(),
-            direction: columns(),
-            t_max: floats(),
-            contribution: columns(),
-            slot: words(),
-            from_primitive: words(),
-            from_instance: words(),
-            target_primitive: words(),
-            target_instance: filled(NONE),
-            occluded: words(),
-        }
+    /// None of them; those to lights need no target's instance.
+    fn new() -> Pages<Self> {
+        let mut shadows: Pages<Self> = Pages::zeroed();
+        shadows.target_instance.fill(NONE);
+        shadows
     }
 }
 
 /// Photons of a batch, and those of them that were stored.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
 pub struct Photons {
     /// Pair of light and caster of each photon sent.
     pub pair: Column<u32>,
     /// Index of each photon sent among those of its pair.
     pub index: Column<u32>,
-    /// Number of photons stored.
-    pub len: usize,
     /// Where they are stored.
     pub point: Columns,
     /// Where they came from: the last mirror, glass or glossy surface.
     pub from: Columns,
     /// Flux, the sum of its channels.
     pub flux: Column<f32>,
+    /// Number of photons stored.
+    pub len: usize,
 }
 
 /// What light paths bring to the film (see [`super::stages::light_paths`]); the shadow rays to the lens are in
 /// [`Batch::shadows`].
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
 pub struct Splats {
-    /// How many.
-    pub len: usize,
     /// F.
     pub brings: Columns,
     /// P.
@@ -250,13 +221,15 @@ pub struct Splats {
     pub x: Column<f32>,
     /// Row, from the upper edge.
     pub y: Column<f32>,
+    /// How many.
+    pub len: usize,
 }
 
 /// The first diffuse or glossy vertices of the paths, where pixels meet what others have found. In the order of
 /// vertices, items, pixels.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
 pub struct Members {
-    /// Number of members.
-    pub len: usize,
     /// Where rays from here start.
     pub start: Columns,
     /// Shading normal.
@@ -281,27 +254,11 @@ pub struct Members {
     pub primitive: Column<u32>,
     /// Its instance.
     pub instance: Column<u32>,
+    /// Number of members.
+    pub len: usize,
 }
 
 impl Members {
-    fn new() -> Self {
-        Members {
-            len: 0,
-            start: columns(),
-            normal: columns(),
-            geometric: columns(),
-            wo: columns(),
-            weight: columns(),
-            numbers: [floats(), floats()],
-            survival: floats(),
-            film: floats(),
-            kind: words(),
-            slot: words(),
-            primitive: words(),
-            instance: words(),
-        }
-    }
-
     /// Moves those of the mask, from `from` on, to `to`, which does not lie behind.
     #[inline(always)]
     pub fn keep<F: Lanes>(&mut self, from: usize, mask: F::M, to: usize) {
@@ -324,9 +281,9 @@ pub const RAISED: u32 = 1 << 31;
 
 /// Second vertices that are diffuse: light leaves them alike in all directions. In the order of vertices, items,
 /// pixels.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
 pub struct Suffixes {
-    /// Number of suffixes.
-    pub len: usize,
     /// The point, off the surface by its error.
     pub point: Columns,
     /// Geometric normal, on the side that light leaves.
@@ -337,6 +294,8 @@ pub struct Suffixes {
     pub primitive: Column<u32>,
     /// Its instance.
     pub instance: Column<u32>,
+    /// Number of suffixes.
+    pub len: usize,
 }
 
 /// A run of [`Members`] of one item whose paths have the same number of vertices: they share.
@@ -355,11 +314,11 @@ pub struct Groups {
     /// Per item: the last group of it.
     pub of_item: [u32; ITEMS],
     /// Per suffix: the group that shares it.
-    pub of_suffix: Column<u32>,
+    pub of_suffix: Pages<Column<u32>>,
     /// Per suffix: the members of its group that do not see it or do not share it, a bit each.
-    pub hidden: Column<u64>,
+    pub hidden: Pages<Column<u64>>,
     /// Per member: the light that it gets.
-    pub gathered: Columns,
+    pub gathered: Pages<Columns>,
 }
 
 /// All of a thread's working memory.
@@ -378,37 +337,37 @@ pub struct Batch {
     /// it.
     pub glint_weight: [f32; ITEMS],
     /// The living paths.
-    pub paths: Paths,
+    pub paths: Pages<Paths>,
     /// The paths after the next scattering.
-    pub next: Paths,
+    pub next: Pages<Paths>,
     /// The other ways of paths that go both ways at glass.
-    pub branches: Paths,
+    pub branches: Pages<Paths>,
     /// What [`Batch::paths`] hit.
-    pub hits: Hits,
+    pub hits: Pages<Hits>,
     /// Shadow rays of this bounce.
-    pub shadows: Shadows,
+    pub shadows: Pages<Shadows>,
     /// Rays between first and second vertices of different pixels; they change places with `shadows` while they are
     /// traced.
-    pub segments: Shadows,
+    pub segments: Pages<Shadows>,
     /// Radiance of each slot; in the upper half (from [`PATHS`] on) what leaves the second vertex that the slot's path
     /// found.
-    pub radiance: Columns,
+    pub radiance: Pages<Columns>,
     /// What camera rays hit first.
     pub layers: LayerSamples,
     /// Photons on their way from the lights.
-    pub photons: Photons,
+    pub photons: Pages<Photons>,
     /// What light paths bring to the film.
-    pub splats: Splats,
+    pub splats: Pages<Splats>,
     /// Rough vertices of this bounce that rays may be aimed from.
-    pub aimers: Members,
+    pub aimers: Pages<Members>,
     /// First vertices that share.
-    pub members: Members,
+    pub members: Pages<Members>,
     /// Second vertices that are shared.
-    pub suffixes: Suffixes,
+    pub suffixes: Pages<Suffixes>,
     /// Who shares what.
     pub groups: Groups,
     /// Indices of the rays that the tree is asked about.
-    pub active: Column<u32>,
+    pub active: Pages<Column<u32>>,
     /// How many they are.
     pub active_len: usize,
     /// Counters.
@@ -433,48 +392,27 @@ impl Batch {
             shares: u32::MAX,
             item_shares: [1; ITEMS],
             glint_weight: [1.0; ITEMS],
-            paths: Paths::new(),
-            next: Paths::new(),
-            branches: Paths::new(),
+            paths: Pages::zeroed(),
+            next: Pages::zeroed(),
+            branches: Pages::zeroed(),
             layers: LayerSamples::default(),
-            photons: Photons {
-                pair: words(),
-                index: words(),
-                len: 0,
-                point: columns(),
-                from: columns(),
-                flux: floats(),
-            },
-            splats: Splats {
-                len: 0,
-                brings: columns(),
-                by_paths: floats(),
-                by_light: floats(),
-                x: floats(),
-                y: floats(),
-            },
-            aimers: Members::new(),
-            hits: Hits { t: floats(), primitive: words(), instance: words(), behind: words() },
+            photons: Pages::zeroed(),
+            splats: Pages::zeroed(),
+            aimers: Pages::zeroed(),
+            hits: Pages::zeroed(),
             shadows: Shadows::new(),
             segments: Shadows::new(),
-            radiance: columns(),
-            members: Members::new(),
-            suffixes: Suffixes {
-                len: 0,
-                point: columns(),
-                normal: columns(),
-                slot: words(),
-                primitive: words(),
-                instance: words(),
-            },
+            radiance: Pages::zeroed(),
+            members: Pages::zeroed(),
+            suffixes: Pages::zeroed(),
             groups: Groups {
-                list: Vec::with_capacity(CAPACITY),
+                list: Vec::new(),
                 of_item: [0; ITEMS],
-                of_suffix: words(),
-                hidden: filled(0),
-                gathered: columns(),
+                of_suffix: Pages::zeroed(),
+                hidden: Pages::zeroed(),
+                gathered: Pages::zeroed(),
             },
-            active: words(),
+            active: Pages::zeroed(),
             active_len: 0,
             counters: Counters::default(),
             watch: Watch::default(),
@@ -490,7 +428,7 @@ impl Batch {
         }
         self.pixels.find(&self.items);
         let slots = self.items.len() * ITEM_PIXELS;
-        for channel in &mut self.radiance {
+        for channel in self.radiance.iter_mut() {
             channel[..slots].fill(0.0);
             channel[PATHS..PATHS + slots].fill(0.0);
         }

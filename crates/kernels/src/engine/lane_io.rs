@@ -12,7 +12,7 @@ pub trait AsColumn {
 impl AsColumn for Column<f32> {
     #[inline(always)]
     fn column(&self) -> &[f32] {
-        &**self
+        self
     }
 }
 impl AsColumn for Vec<f32> {

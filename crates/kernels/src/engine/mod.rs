@@ -10,6 +10,7 @@ pub mod guide;
 pub mod kernels;
 mod lane_io;
 pub mod light_paths;
+mod pages;
 pub mod pass;
 pub mod pool;
 #[cfg_attr(test, allow(dead_code))]

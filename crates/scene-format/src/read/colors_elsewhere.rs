@@ -5,7 +5,7 @@ use super::value::{before_unit, expected_for, hex_color, is_picture};
 use super::{Reader, hinted, plain, shortened};
 use crate::codes;
 use crate::css_colors::{self, named_color};
-use crate::desc::is_texture;
+use crate::desc::{Metal, is_texture};
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::schema::{EnumDef, FieldDef, StructDef, Type};
 use crate::syntax::ron_literal::number_kind;
@@ -48,6 +48,17 @@ pub(super) fn color(value: Item<'_, '_>) -> Option<String> {
         Kind::Tuple | Kind::Struct if value.name().is_some_and(is_texture) => Some(lexeme.to_owned()),
         _ => None,
     }
+}
+
+/// What to write for a metal that stands where a colour does: some metals are names of colours, too, which nobody means
+/// who writes them as metals are written here.
+pub(super) fn metal(name: &str, item: Item<'_, '_>) -> Option<String> {
+    let metal = Metal::DEF.variant(name)?.name;
+    let (conductor, color) = match item.syntax() {
+        Syntax::Ron => (format!("Conductor(metal: {metal})"), "(r, g, b)"),
+        syntax => (syntax.of_toml(format!("{{ Conductor = {{ metal = \"{metal}\" }} }}")).into_owned(), "[r, g, b]"),
+    };
+    Some(format!("the metal is a material: {conductor}; a colour like it is written {color}"))
 }
 
 /// The names of a surface's colour elsewhere.
@@ -138,12 +149,18 @@ impl Reader<'_> {
             Kind::Word => named_color(item.lexeme()).map(|hex| format!("\"{hex}\"")),
             _ => None,
         };
-        let Some(mended) = mended else { return false };
+        let metal = Some(item).filter(|item| item.kind() == Kind::Word).and_then(|item| metal(item.lexeme(), item));
         let message = format!("a colour cannot be {}", super::describe(item));
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
-            .expected("a colour: (r, g, b), one number for grey, or \"#rrggbb\"")
-            .hint(format!("write {mended}"));
-        fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            .expected("a colour: (r, g, b), one number for grey, or \"#rrggbb\"");
+        match (metal, mended) {
+            (Some(metal), _) => fault.hint = metal,
+            (None, Some(mended)) => {
+                fault.hint = format!("write {mended}");
+                fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            }
+            (None, None) => return false,
+        }
         self.report(fault);
         true
     }
@@ -228,6 +245,11 @@ impl Reader<'_> {
         if let Some((hex, _)) = css_colors::function(text.trim()) {
             fault.hint = format!("write \"{hex}\"");
             fault.edit = Some(Edit { span: item.span(), replacement: format!("\"{hex}\"") });
+            self.report(fault);
+            return None;
+        }
+        if let Some(metal) = metal(&text, item) {
+            fault.hint = metal;
             self.report(fault);
             return None;
         }

@@ -410,6 +410,10 @@ impl Reader<'_> {
         {
             fault.hint = format!("write {mended}");
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else if nearest.is_none()
+            && let Some(metal) = super::colors_elsewhere::metal(name, item)
+        {
+            fault.hint = metal;
         } else if nearest.is_none() {
             fault.hint = match (self.knows_material(name), item.syntax()) {
                 (true, _) => format!("\"{}\" is a material, which has a colour of its own", shortened(name)),

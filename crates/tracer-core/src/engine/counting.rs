@@ -43,7 +43,7 @@ pub fn paths(engine: Engine<'_>, layers: LayerSet, camera: bool, batch: &mut Bat
 }
 
 fn closest_alone(accel: &Accel, batch: &Batch, i: usize) -> Counters {
-    let paths = &batch.paths;
+    let paths = &*batch.paths;
     let all = rays(&paths.origin, &paths.direction, &paths.from_primitive[..], &paths.from_instance[..], paths.len);
     let (mut t, mut primitive) = ([batch.hits.t[i]], [batch.hits.primitive[i]]);
     let mut instance = [batch.hits.instance[i]];
@@ -66,7 +66,7 @@ pub fn shadows(engine: Engine<'_>, layers: LayerSet, batch: &mut Batch) {
 }
 
 fn occluded_alone(accel: &Accel, batch: &Batch, i: usize) -> Counters {
-    let shadows = &batch.shadows;
+    let shadows = &*batch.shadows;
     let (origin, direction) = (&shadows.origin, &shadows.direction);
     let all = rays(origin, direction, &shadows.from_primitive[..], &shadows.from_instance[..], shadows.len);
     let mut occluded = [shadows.occluded[i]];

@@ -121,18 +121,16 @@ pub fn closest(engine: Engine<'_>, camera: bool, batch: &mut Batch) {
 
 /// What the tree holds nearer than the spheres that every ray tests, for the paths in `batch.active`.
 fn closest_in_tree(accel: &Accel, level: Level, camera: bool, batch: &mut Batch) {
-    let (paths, len) = (&batch.paths, batch.paths.len);
-    let mut hits = Hits {
-        t: &mut batch.hits.t[..len],
-        primitive: &mut batch.hits.primitive[..len],
-        instance: &mut batch.hits.instance[..len],
-    };
+    let (paths, len) = (&*batch.paths, batch.paths.len);
+    let found = &mut *batch.hits;
+    let mut hits =
+        Hits { t: &mut found.t[..len], primitive: &mut found.primitive[..len], instance: &mut found.instance[..len] };
     let coherence = if camera { Coherence::Coherent } else { Coherence::Incoherent };
     let rays = rays(&paths.origin, &paths.direction, &paths.from_primitive[..], &paths.from_instance[..], len);
     let active = &batch.active[..batch.active_len];
     let counters = accel.closest_at(level, &rays, active, &mut hits, coherence);
     if accel.has_touching() {
-        accel.touching(&rays, active, &hits, &mut batch.hits.behind[..len]);
+        accel.touching(&rays, active, &hits, &mut found.behind[..len]);
     }
     if batch.watch.is_on() {
         batch.watch.statistics.closest.add(active.len(), &counters);
@@ -157,7 +155,7 @@ pub fn occluded(engine: Engine<'_>, camera: bool, batch: &mut Batch) {
 /// Which of the shadow rays in `batch.active` something in the tree blocks.
 pub fn occluded_in_tree(accel: &Accel, kernels: &Kernels, coherence: Coherence, batch: &mut Batch) {
     let len = batch.shadows.len;
-    let shadows = &mut batch.shadows;
+    let shadows = &mut *batch.shadows;
     let mut occlusion = Occlusion {
         tmax: &shadows.t_max[..len],
         target_primitive: &shadows.target_primitive[..len],

@@ -187,7 +187,7 @@ pub fn density<F: Lanes>(guide: &Guide, p: V3<F>, n: V3<F>, w: V3<F>, mask: F::M
 #[inline(always)]
 fn leave_by_chance<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     let choices = PairPoints::<F>::new(seed, Purpose::Aim(vertex), &batch.items);
-    let (aimers, drawn) = (&mut batch.aimers, &mut batch.next);
+    let (aimers, drawn) = (&mut *batch.aimers, &mut *batch.next);
     let mut left = 0;
     for i in (0..aimers.len).step_by(F::N) {
         let valid = F::first(aimers.len - i);
@@ -219,7 +219,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     }
     debug_assert!(batch.paths.len + batch.aimers.len <= CAPACITY - 64, "more paths than there is room for");
     let directions = PairPoints::<F>::new(seed, Purpose::AimedDirection(vertex), &batch.items);
-    let (aimers, paths, drawn) = (&batch.aimers, &mut batch.paths, &batch.next);
+    let (aimers, paths, drawn) = (&*batch.aimers, &mut *batch.paths, &*batch.next);
     let before = paths.len;
     let casters = guide.casters.count().min(MOST_CASTERS);
     for i in (0..aimers.len).step_by(F::N) {

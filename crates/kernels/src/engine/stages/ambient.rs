@@ -19,7 +19,7 @@ const FAR: f32 = 1e30;
 #[inline(always)]
 pub fn ambient<F: Lanes>(scene: &Scene, seed: u32, distance: f32, batch: &mut Batch) {
     let directions = PairPoints::<F>::new(seed, Purpose::Direction(0), &batch.items);
-    let (paths, shadows) = (&batch.paths, &mut batch.shadows);
+    let (paths, shadows) = (&*batch.paths, &mut *batch.shadows);
     shadows.len = 0;
     for i in (0..paths.len).step_by(F::N) {
         let primitive = F::U::load(&batch.hits.primitive[i..]);

@@ -23,7 +23,7 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
     let middle = scene.size.map(|side| side as f32 / 2.0);
     let [left, top] = middle.map(|middle| c(middle - 0.5));
     let (scale_x, scale_y) = (c(1.0 / middle[0]), c(-1.0 / middle[1]));
-    let paths = &mut batch.paths;
+    let paths = &mut *batch.paths;
     paths.len = 0;
     for k in 0..batch.items.len() {
         if items >> k & 1 == 0 {

@@ -18,7 +18,7 @@ const MOST_LANES: usize = 16;
 /// Fills `batch.layers` from the camera rays in `batch.paths` and their hits.
 #[inline(always)]
 pub fn first_hits<F: Lanes>(scene: &Scene, seed: u32, layers: LayerSet, batch: &mut Batch) {
-    let (paths, hits, samples) = (&batch.paths, &batch.hits, &mut batch.layers);
+    let (paths, hits, samples) = (&*batch.paths, &*batch.hits, &mut batch.layers);
     let wants_uv = scene.tables.materials.textured || layers.kept().uv;
     for i in (0..paths.len).step_by(F::N) {
         let count = F::N.min(paths.len - i);
@@ -79,7 +79,7 @@ pub fn first_hits<F: Lanes>(scene: &Scene, seed: u32, layers: LayerSet, batch: &
 /// How far from its pixel's centre each sample lies: the camera rays' own points ([`super::camera`]).
 #[inline(always)]
 fn distances<F: Lanes>(scene: &Scene, seed: u32, batch: &mut Batch) {
-    let paths = &batch.paths;
+    let paths = &*batch.paths;
     let points = PairPoints::<F>::new(seed, Purpose::Pixel, &batch.items);
     for i in (0..paths.len).step_by(F::N) {
         let (u, v) = points.points(&PixelOf::<F>::new(F::U::load(&paths.slot[i..]), &batch.pixels));

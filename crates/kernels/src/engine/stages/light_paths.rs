@@ -210,8 +210,8 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
     let goes_on = event < scene.max_bounces;
     let salt = hash3(pass.seed, event, 0x00e4_e275) as u32;
     let lens_salt = hash3(pass.seed, event, 0x001e_2500) as u32;
-    let (paths, next, photons) = (&batch.paths, &mut batch.next, &batch.photons);
-    let (shadows, splats) = (&mut batch.shadows, &mut batch.splats);
+    let (paths, next, photons) = (&*batch.paths, &mut *batch.next, &*batch.photons);
+    let (shadows, splats) = (&mut *batch.shadows, &mut *batch.splats);
     next.len = 0;
     shadows.len = 0;
     for i in (0..paths.len).step_by(F::N) {

@@ -48,7 +48,7 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
     let pairs = &plan.pairs;
     let salt = |k: u32| hash3(pass.seed, k, 0xb010_9a17) as u32;
     let salts = [salt(0), salt(1), salt(2)];
-    let (photons, paths) = (&batch.photons, &mut batch.paths);
+    let (photons, paths) = (&*batch.photons, &mut *batch.paths);
     paths.len = 0;
     for i in (0..pass.count).step_by(F::N) {
         let valid = F::first(pass.count - i);
@@ -154,7 +154,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
     let (zero, one) = (c(0.0), c(1.0));
     let goes_on = event < scene.max_bounces;
     let salt = hash3(seed, event, 0x00e4_e275) as u32;
-    let (paths, next, photons) = (&batch.paths, &mut batch.next, &mut batch.photons);
+    let (paths, next, photons) = (&*batch.paths, &mut *batch.next, &mut *batch.photons);
     next.len = 0;
     for i in (0..paths.len).step_by(F::N) {
         let valid = F::first(paths.len - i);

@@ -17,7 +17,7 @@ fn at(columns: &Columns, i: usize) -> [f64; 3] {
 /// Takes those hits of `batch.hits` that a plane is nearer than. Of planes equally far the first wins, by t before it
 /// is rounded: planes that nearly touch do not speckle.
 pub fn planes_closest(planes: &PlaneTable, batch: &mut Batch) {
-    let (paths, hits) = (&batch.paths, &mut batch.hits);
+    let (paths, hits) = (&*batch.paths, &mut *batch.hits);
     // Columns of one type and of one length, ids among them, so that the compiler takes several rays at a time.
     let (mut origin, mut direction, mut from) = ([[0f64; AT_ONCE]; 3], [[0f64; AT_ONCE]; 3], [0f64; AT_ONCE]);
     for first in (0..paths.len).step_by(AT_ONCE) {
@@ -53,7 +53,7 @@ fn widen<T: Copy + Into<f64>>(column: &[T], wide: &mut [f64; AT_ONCE]) {
 
 /// Sets `batch.shadows.occluded` for the shadow rays that a plane blocks. What lies in a plane is not hidden by it.
 pub fn planes_occluded(met: Met<'_>, batch: &mut Batch) {
-    let shadows = &mut batch.shadows;
+    let shadows = &mut *batch.shadows;
     for plane in &met.planes.rows {
         for i in 0..shadows.len {
             let t = plane.meets(at(&shadows.origin, i), at(&shadows.direction, i));
@@ -75,7 +75,7 @@ fn holds(met: Met<'_>, plane: &Plane, primitive: u32, instance: u32) -> bool {
 /// sides. That asks nothing but on which side points are, once for each; a suffix or member on the very plane is on
 /// neither. The finder of a suffix sees it.
 pub fn planes_hide(planes: &PlaneTable, numbers: Range<usize>, batch: &mut Batch) {
-    let (members, suffixes, groups) = (&batch.members, &batch.suffixes, &mut batch.groups);
+    let (members, suffixes, groups) = (&*batch.members, &*batch.suffixes, &mut batch.groups);
     for plane in &planes.rows {
         let (mut sides, mut sides_of) = ([0; 2], NONE);
         for j in numbers.clone().filter(|&j| light(suffixes, &batch.radiance, j) != [0.0; 3]) {

@@ -12,7 +12,7 @@ use crate::math::V3;
 /// Lists in `batch.active` the paths that pass a box before what they have hit.
 #[inline(always)]
 pub fn reach_closest<F: Lanes>(boxes: &TopBoxes, batch: &mut Batch) {
-    let paths = &batch.paths;
+    let paths = &*batch.paths;
     let mut count = 0;
     for i in (0..paths.len).step_by(F::N) {
         let slabs = Slabs::<F>::load(&paths.origin, &paths.direction, i);
@@ -27,7 +27,7 @@ pub fn reach_closest<F: Lanes>(boxes: &TopBoxes, batch: &mut Batch) {
 /// Lists in `batch.active` the shadow rays that nothing has blocked yet and that pass a box before their end.
 #[inline(always)]
 pub fn reach_occluded<F: Lanes>(boxes: &TopBoxes, batch: &mut Batch) {
-    let shadows = &batch.shadows;
+    let shadows = &*batch.shadows;
     let mut count = 0;
     for i in (0..shadows.len).step_by(F::N) {
         let slabs = Slabs::<F>::load(&shadows.origin, &shadows.direction, i);
@@ -197,10 +197,11 @@ mod tests {
                 let reaching = batch.active[..batch.active_len].to_vec();
                 let from = vec![NONE; len];
                 let rays = rays(&batch.paths.origin, &batch.paths.direction, &from, &from, len);
+                let found = &mut *batch.hits;
                 let mut hits = Hits {
-                    t: &mut batch.hits.t[..len],
-                    primitive: &mut batch.hits.primitive[..len],
-                    instance: &mut batch.hits.instance[..len],
+                    t: &mut found.t[..len],
+                    primitive: &mut found.primitive[..len],
+                    instance: &mut found.instance[..len],
                 };
                 hits.primitive.fill(NONE);
                 let all: Vec<u32> = (0..len as u32).collect();

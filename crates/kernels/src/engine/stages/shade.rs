@@ -49,13 +49,13 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
     let last = vertex == scene.max_bounces;
     let direct = pass.task == Task::Direct;
 
-    let (paths, next, shadows) = (&batch.paths, &mut batch.next, &mut batch.shadows);
-    let (members, suffixes) = (&mut batch.members, &mut batch.suffixes);
+    let (paths, next, shadows) = (&*batch.paths, &mut *batch.next, &mut *batch.shadows);
+    let (members, suffixes) = (&mut *batch.members, &mut *batch.suffixes);
     // A member's second vertex needs a scattering of its own.
     let joins = pass.reuse && vertex < scene.max_bounces;
     // What a ray aimed from the last vertex met could not scatter.
     let aims_here = guide.is_some() && vertex < scene.max_bounces;
-    let (aimers, branches) = (&mut batch.aimers, &mut batch.branches);
+    let (aimers, branches) = (&mut *batch.aimers, &mut *batch.branches);
     next.len = 0;
     branches.len = 0;
     shadows.len = 0;

@@ -303,7 +303,7 @@ fn places(mut mask: u64) -> impl Iterator<Item = usize> {
 /// segment, in `slot`, is its suffix times 64 plus its member's place in the group.
 #[inline(always)]
 pub fn share_segments<F: Lanes>(scene: &Scene, obstacles: &Obstacles, next: usize, batch: &mut Batch) -> usize {
-    let (members, suffixes, rays) = (&batch.members, &batch.suffixes, &mut batch.segments);
+    let (members, suffixes, rays) = (&*batch.members, &*batch.suffixes, &mut *batch.segments);
     rays.len = 0;
     let mut segments =
         Segments { direction: [[0.0; 64]; 3], distance: [0.0; 64], from: [0; 64], blocked: 0, reaching: 0, own: 0 };
@@ -359,7 +359,7 @@ pub fn share_segments<F: Lanes>(scene: &Scene, obstacles: &Obstacles, next: usiz
 /// Gives every member its share of every suffix.
 #[inline(always)]
 pub fn share_gather<F: Lanes>(batch: &mut Batch) {
-    for column in &mut batch.groups.gathered {
+    for column in batch.groups.gathered.iter_mut() {
         column[..batch.members.len].fill(0.0);
     }
     for j in 0..batch.suffixes.len {

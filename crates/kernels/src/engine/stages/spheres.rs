@@ -56,7 +56,7 @@ fn centred<F: Lanes>(s: &SmallSphere, ray: &Ray<F>, own: F::M) -> (F, F) {
 /// Fills `batch.hits` with the nearest of the linear spheres.
 #[inline(always)]
 pub fn spheres_closest<F: Lanes>(spheres: &SphereTable, batch: &mut Batch) {
-    let paths = &batch.paths;
+    let paths = &*batch.paths;
     let zero = F::splat(0.0);
     for i in (0..paths.len).step_by(F::N) {
         let ray = Ray::<F>::new(
@@ -107,7 +107,7 @@ pub fn spheres_closest<F: Lanes>(spheres: &SphereTable, batch: &mut Batch) {
 /// Sets `batch.shadows.occluded` for the shadow rays that a linear sphere blocks.
 #[inline(always)]
 pub fn spheres_occluded<F: Lanes>(spheres: &SphereTable, batch: &mut Batch) {
-    let shadows = &mut batch.shadows;
+    let shadows = &mut *batch.shadows;
     for i in (0..shadows.len).step_by(F::N) {
         let ray = Ray::<F>::new(
             V3::load(&shadows.origin, i),

@@ -162,14 +162,14 @@ fn share(engine: Engine<'_>, batch: &mut Batch) {
         // All rays of a suffix go to the same point.
         occluded_in_tree(accel, kernels, Coherence::Coherent, batch);
         std::mem::swap(&mut batch.shadows, &mut batch.segments);
-        let Shadows { len, occluded, slot: tags, .. } = &batch.segments;
+        let Shadows { len, occluded, slot: tags, .. } = &*batch.segments;
         for (&occluded, &tag) in occluded[..*len].iter().zip(tags.iter()) {
             batch.groups.hidden[(tag >> 6) as usize] |= u64::from(occluded) << (tag & 63);
         }
     }
     kernels.share_gather(batch);
     batch.watch.lap(Stage::Share);
-    for (channel, gathered) in batch.radiance.iter_mut().zip(&batch.groups.gathered) {
+    for (channel, gathered) in batch.radiance.iter_mut().zip(batch.groups.gathered.iter()) {
         for (&slot, &light) in batch.members.slot[..batch.members.len].iter().zip(gathered.iter()) {
             channel[slot as usize] += light;
         }
