@@ -214,87 +214,11 @@ impl Setter {
                 let fault = self.fault(codes::BAD_SET_PATH, step, format!("{noun} is one of `cameras`, by its name"));
                 Err(fault.hint(value::instead("camera", &camera, name)))
             }
-            (Type::OneOf(kinds), _) => {
-                let fitting = kinds.iter().find(|kind| fits(item, kind));
-                match fitting {
-                    _ if kind.is_texture() && item.kind() == Kind::Text && !item.text().starts_with(['#', '=']) => {
-                        let fault =
-                            self.fault(codes::BAD_SET_PATH, step, format!("{noun} is one of `textures`, by its name"));
-                        Err(fault.hint(value::instead("texture", &item.text(), "")))
-                    }
-                    Some(&kind) if !matches!(kind, Type::Text | Type::File) => self.find(item, kind, steps, noun),
-                    Some(_) => Err(self
-                        .fault(
-                            codes::BAD_SET_PATH,
-                            step,
-                            format!("{noun} is {} and has no parts", crate::read::describe(item)),
-                        )
-                        .hint(match item.kind() {
-                            Kind::Text if kinds.iter().any(|kind| matches!(kind, Type::Text)) => {
-                                value::instead("material", &item.text(), "")
-                            }
-                            _ => "set it as a whole".to_owned(),
-                        })),
-                    None => Err(self.no_parts(item, step, noun)),
-                }
-            }
+            (Type::OneOf(kinds), _) => self.find_fitting(item, kinds, step, steps, noun),
             (Type::Optional(inner), _) => self.find(item.without_some(), *inner, steps, noun),
-            (Type::Map(inner), What::Name(name)) => {
-                let (what, group) = match inner {
-                    Type::Value => ("var", "vars"),
-                    Type::Struct(_) => ("camera", "cameras"),
-                    Type::Vector => ("mark", "output.marks"),
-                    inner if inner.is_texture() => ("texture", "textures"),
-                    _ => ("material", "materials"),
-                };
-                let found = item.fields().find(|(key, _)| key.text() == *name);
-                if let Some((_, value)) = found {
-                    return self.find(value, *inner, rest, &format!("the {what} \"{name}\""));
-                }
-                if rest.is_empty() && item.kind() == Kind::Map {
-                    // A new name.
-                    return Ok(Some(Edited::Add(item.index(), vec![value::name(step)])));
-                }
-                let keys: Vec<String> = item.fields().map(|(key, _)| key.text().into_owned()).collect();
-                let words: Vec<&str> = keys.iter().map(String::as_str).collect();
-                let mut fault = self.fault(codes::BAD_SET_PATH, step, format!("the scene has no {what} \"{name}\""));
-                fault.expected = match words.len() {
-                    0 => format!("nothing: `{group}` is empty"),
-                    1..=8 => format!("one of {}", suggest::list(&words)),
-                    count => format!("one of the {count} names in `{group}`"),
-                };
-                let near = suggest::nearest(name, words.iter().copied()).map(value::step);
-                fault.did_you_mean(near.as_deref(), str::to_owned);
-                Err(fault)
-            }
+            (Type::Map(inner), What::Name(name)) => self.find_in_map(item, *inner, name, step, rest),
             (Type::Vector | Type::Pair, _) => self.find_part(item, step, rest, noun),
-            (Type::List(inner), What::Index(index)) => {
-                if !matches!(item.kind(), Kind::List) {
-                    return Err(self.no_parts(item, step, noun));
-                }
-                match item.children().nth(*index) {
-                    Some(child) if crate::read::repeat_body(child).is_some() && !rest.is_empty() => Err(self
-                        .fault(codes::BAD_SET_PATH, step, format!("item {index} of {noun} is a `Repeat`"))
-                        .expected("an item that stands for itself")
-                        .hint("give what differs a name in `vars`, and set that: --set vars.height=2")),
-                    Some(child) => self.find(child, *inner, rest, &format!("item {index} of {noun}")),
-                    None => {
-                        let count = item.children().count();
-                        let expected = match count {
-                            0 => "nothing: the list is empty".to_owned(),
-                            1 => "0: the list has one item".to_owned(),
-                            count => format!("0 to {}: the list has {count} items", count - 1),
-                        };
-                        Err(self
-                            .fault(
-                                codes::BAD_SET_INDEX,
-                                step,
-                                format!("there is no item {index} in {}", crate::read::plain(noun)),
-                            )
-                            .expected(expected))
-                    }
-                }
-            }
+            (Type::List(inner), What::Index(index)) => self.find_item(item, *inner, *index, step, rest, noun),
             (Type::List(inner), What::Name(name)) if named::have_names(*inner).is_some() => {
                 let Some(def) = named::have_names(*inner) else { return Ok(None) };
                 self.find_named(item, def, name, noun, step, rest)
@@ -303,6 +227,109 @@ impl Setter {
                 .fault(codes::BAD_SET_PATH, step, format!("{noun} is a list; its items have numbers"))
                 .expected("the number of an item in brackets, counted from 0: [0]")),
             _ => Err(self.no_parts(item, step, noun)),
+        }
+    }
+
+    /// Goes on where a value may be of several types: by the first that is written here.
+    fn find_fitting(
+        &self,
+        item: Item<'_, '_>,
+        kinds: &'static [Type],
+        step: &Step<'_>,
+        steps: &[Step<'_>],
+        noun: &str,
+    ) -> Result<Option<Edited>, Diagnostic> {
+        let of_texture = Type::OneOf(kinds).is_texture();
+        if of_texture && item.kind() == Kind::Text && !item.text().starts_with(['#', '=']) {
+            let fault = self.fault(codes::BAD_SET_PATH, step, format!("{noun} is one of `textures`, by its name"));
+            return Err(fault.hint(value::instead("texture", &item.text(), "")));
+        }
+        match kinds.iter().find(|kind| fits(item, kind)) {
+            Some(&kind) if !matches!(kind, Type::Text | Type::File) => self.find(item, kind, steps, noun),
+            Some(_) => {
+                let message = format!("{noun} is {} and has no parts", crate::read::describe(item));
+                Err(self.fault(codes::BAD_SET_PATH, step, message).hint(match item.kind() {
+                    Kind::Text if kinds.iter().any(|kind| matches!(kind, Type::Text)) => {
+                        value::instead("material", &item.text(), "")
+                    }
+                    _ => "set it as a whole".to_owned(),
+                }))
+            }
+            None => Err(self.no_parts(item, step, noun)),
+        }
+    }
+
+    /// Goes on from the value of this name in a map, or adds the name.
+    fn find_in_map(
+        &self,
+        item: Item<'_, '_>,
+        inner: Type,
+        name: &str,
+        step: &Step<'_>,
+        rest: &[Step<'_>],
+    ) -> Result<Option<Edited>, Diagnostic> {
+        let (what, group) = match inner {
+            Type::Value => ("var", "vars"),
+            Type::Struct(_) => ("camera", "cameras"),
+            Type::Vector => ("mark", "output.marks"),
+            inner if inner.is_texture() => ("texture", "textures"),
+            _ => ("material", "materials"),
+        };
+        let found = item.fields().find(|(key, _)| key.text() == name);
+        if let Some((_, value)) = found {
+            return self.find(value, inner, rest, &format!("the {what} \"{name}\""));
+        }
+        if rest.is_empty() && item.kind() == Kind::Map {
+            // A new name.
+            return Ok(Some(Edited::Add(item.index(), vec![value::name(step)])));
+        }
+        let keys: Vec<String> = item.fields().map(|(key, _)| key.text().into_owned()).collect();
+        let words: Vec<&str> = keys.iter().map(String::as_str).collect();
+        let mut fault = self.fault(codes::BAD_SET_PATH, step, format!("the scene has no {what} \"{name}\""));
+        fault.expected = match words.len() {
+            0 => format!("nothing: `{group}` is empty"),
+            1..=8 => format!("one of {}", suggest::list(&words)),
+            count => format!("one of the {count} names in `{group}`"),
+        };
+        let near = suggest::nearest(name, words.iter().copied()).map(value::step);
+        fault.did_you_mean(near.as_deref(), str::to_owned);
+        Err(fault)
+    }
+
+    /// Goes on from the item of this number in a list.
+    fn find_item(
+        &self,
+        item: Item<'_, '_>,
+        inner: Type,
+        index: usize,
+        step: &Step<'_>,
+        rest: &[Step<'_>],
+        noun: &str,
+    ) -> Result<Option<Edited>, Diagnostic> {
+        if !matches!(item.kind(), Kind::List) {
+            return Err(self.no_parts(item, step, noun));
+        }
+        match item.children().nth(index) {
+            Some(child) if crate::read::repeat_body(child).is_some() && !rest.is_empty() => Err(self
+                .fault(codes::BAD_SET_PATH, step, format!("item {index} of {noun} is a `Repeat`"))
+                .expected("an item that stands for itself")
+                .hint("give what differs a name in `vars`, and set that: --set vars.height=2")),
+            Some(child) => self.find(child, inner, rest, &format!("item {index} of {noun}")),
+            None => {
+                let count = item.children().count();
+                let expected = match count {
+                    0 => "nothing: the list is empty".to_owned(),
+                    1 => "0: the list has one item".to_owned(),
+                    count => format!("0 to {}: the list has {count} items", count - 1),
+                };
+                Err(self
+                    .fault(
+                        codes::BAD_SET_INDEX,
+                        step,
+                        format!("there is no item {index} in {}", crate::read::plain(noun)),
+                    )
+                    .expected(expected))
+            }
         }
     }
 

@@ -65,7 +65,7 @@ use materials::Materials;
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
-use unknown::{Meant, Unknown};
+use unknown::Others;
 
 /// Where a value stands: a step of a field path.
 #[derive(Clone, Debug)]
@@ -295,51 +295,16 @@ impl<'r> Reader<'r> {
                 }
             }
             Kind::Text if def.name == "Output" => return self.output_as_text(item),
-            _ => {
-                let header = item.kind() == Kind::List && item.lexeme().starts_with("[[");
-                let edit = header.then(|| item.lexeme().replace("[[", "[").replace("]]", "]"));
-                let expected = match item.syntax() {
-                    _ if header => "a table".to_owned(),
-                    Syntax::Ron => format!("{}({})", def.name, field_words(def)),
-                    syntax => {
-                        let words = format!("{{ {} }}", field_words(def).replace(": ", " = "));
-                        syntax.of_toml(words).into_owned()
-                    }
-                };
-                return self.wrong_kind(item, def.noun, &expected, edit);
-            }
+            _ => return self.not_a_struct(item, def),
         }
         let mut guess = 0;
-        let mut mistyped = Vec::new();
-        let mut excused = Vec::new();
+        let mut others = Others::default();
         for (key, value) in item.fields() {
             if self.sink.is_full() {
                 break;
             }
-            // Most fields are written in order and without quotes.
-            let written = key.lexeme();
-            let slot = match def.fields.get(guess) {
-                Some(field) if field.name == written => Some(guess),
-                _ => {
-                    let name = key.text();
-                    def.fields.iter().position(|field| field.name == name)
-                }
-            };
-            match slot {
-                None => match &*key.text() {
-                    // Where the schema is, for editors.
-                    "$schema" if def.name == "Scene" => {}
-                    // Told of already.
-                    name if self.typed == item.index() as u32 && typed::NAMES.contains(&name) => {}
-                    name => {
-                        let unknown = Unknown { key, value, name, item, def };
-                        match self.unknown_field(&unknown, &mistyped) {
-                            Meant::Field(field) => mistyped.push((field, value)),
-                            Meant::Unreadable(fields) => excused.extend(fields),
-                            Meant::Nothing => {}
-                        }
-                    }
-                },
+            match slot_of(def, key, guess) {
+                None => self.other_field(key, value, item, def, &mut others),
                 Some(slot) => {
                     guess = slot + 1;
                     if let Some(first) = fields.get(slot) {
@@ -353,14 +318,14 @@ impl<'r> Reader<'r> {
             }
         }
         // What a mistyped name stands for is read as well, so that what is wrong with it is told in the same run.
-        for (meant, value) in mistyped {
+        for (meant, value) in others.mistyped {
             let slot = def.fields.iter().position(|field| field.name == meant);
             if let Some(slot) = slot.filter(|slot| fields.get(*slot).is_none()) {
                 fields.set(slot, value);
             }
         }
         if !item.is_damaged() {
-            self.missing_fields(item, def, &fields, &excused);
+            self.missing_fields(item, def, &fields, &others.excused);
         }
         self.leave_out_untaken(&mut fields);
         Some(fields)
@@ -586,6 +551,19 @@ impl<'r> Reader<'r> {
 
 pub(crate) fn names(def: &'static StructDef) -> impl Iterator<Item = &'static str> {
     def.fields.iter().map(|field| field.name)
+}
+
+/// The number of the field of this name. Most fields are written in order and without quotes: then it is `guess`.
+#[inline]
+fn slot_of(def: &'static StructDef, key: Item<'_, '_>, guess: usize) -> Option<usize> {
+    let written = key.lexeme();
+    match def.fields.get(guess) {
+        Some(field) if field.name == written => Some(guess),
+        _ => {
+            let name = key.text();
+            def.fields.iter().position(|field| field.name == name)
+        }
+    }
 }
 
 /// How one of the fields of which there must be one is added: as in the example of the kind.

@@ -1,10 +1,11 @@
-//! Values without names where fields stand: what they must be of.
+//! Values without names where fields stand, and what has no fields: what is to be written.
 
-use super::{Reader, field_list, hinted};
+use super::{Reader, field_list, field_words, hinted};
 use crate::codes;
 use crate::desc::{Material, Object, PlacementPattern, TransformWords};
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{self, StructDef};
+use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
 
 /// The field that a value must be of, and both as they are written.
@@ -44,10 +45,25 @@ impl Reader<'_> {
             let is_plain = matches!(first.kind(), Kind::Text | Kind::Integer | Kind::Float) && values.len() == 1;
             fault.hint = format!("write `{}: {}`", only.name, if is_plain { first.lexeme() } else { "value" });
         } else {
-            fault.hint = format!("write the name of each: {}", super::field_words(def));
+            fault.hint = format!("write the name of each: {}", field_words(def));
         }
         self.report(fault);
         None
+    }
+
+    /// Reports what stands in place of a struct and can have no fields.
+    pub(super) fn not_a_struct<T>(&mut self, item: Item<'_, '_>, def: &'static StructDef) -> Option<T> {
+        let header = item.kind() == Kind::List && item.lexeme().starts_with("[[");
+        let edit = header.then(|| item.lexeme().replace("[[", "[").replace("]]", "]"));
+        let expected = match item.syntax() {
+            _ if header => "a table".to_owned(),
+            Syntax::Ron => format!("{}({})", def.name, field_words(def)),
+            syntax => {
+                let words = format!("{{ {} }}", field_words(def).replace(": ", " = "));
+                syntax.of_toml(words).into_owned()
+            }
+        };
+        self.wrong_kind(item, def.noun, &expected, edit)
     }
 }
 

@@ -15,6 +15,15 @@ use crate::tree::{Item, Kind};
 /// Words that later versions of the language will give a meaning.
 const RESERVED: [&str; 4] = ["repeat", "keyframes", "for", "let"];
 
+/// What the unknown fields of one struct stand for.
+#[derive(Default)]
+pub(super) struct Others<'t, 's> {
+    /// Fields, each with the value that was written under another name.
+    pub mistyped: Vec<(&'static str, Item<'t, 's>)>,
+    /// Fields that something was written for which says nothing of them: that they are missing is not told.
+    pub excused: Vec<&'static str>,
+}
+
 /// A field that there is not, with its value, in what it stands.
 pub(super) struct Unknown<'u, 't, 's> {
     pub key: Item<'t, 's>,
@@ -25,7 +34,7 @@ pub(super) struct Unknown<'u, 't, 's> {
 }
 
 /// What an unknown field stands for.
-pub(super) enum Meant {
+enum Meant {
     Nothing,
     /// This one: it is read as if it were written.
     Field(&'static str),
@@ -81,8 +90,33 @@ impl Unknown<'_, '_, '_> {
 }
 
 impl Reader<'_> {
+    /// Reports a field that there is not, unless it may be there all the same; keeps in `others` what is meant.
+    pub(super) fn other_field<'t, 's>(
+        &mut self,
+        key: Item<'t, 's>,
+        value: Item<'t, 's>,
+        item: Item<'t, 's>,
+        def: &'static StructDef,
+        others: &mut Others<'t, 's>,
+    ) {
+        match &*key.text() {
+            // Where the schema is, for editors.
+            "$schema" if def.name == "Scene" => {}
+            // Told of already.
+            name if self.typed == item.index() as u32 && typed::NAMES.contains(&name) => {}
+            name => {
+                let unknown = Unknown { key, value, name, item, def };
+                match self.unknown_field(&unknown, &others.mistyped) {
+                    Meant::Field(field) => others.mistyped.push((field, value)),
+                    Meant::Unreadable(fields) => others.excused.extend(fields),
+                    Meant::Nothing => {}
+                }
+            }
+        }
+    }
+
     /// Reports a field that there is not; gives what is meant.
-    pub(super) fn unknown_field(&mut self, unknown: &Unknown<'_, '_, '_>, mistyped: &Mistyped<'_, '_>) -> Meant {
+    fn unknown_field(&mut self, unknown: &Unknown<'_, '_, '_>, mistyped: &Mistyped<'_, '_>) -> Meant {
         let &Unknown { key, value, name, item, def } = unknown;
         if RESERVED.contains(&name) && pattern_fields::of_mapping(name, value, item, def).is_none() {
             self.report(reserved(name, key.span(), def));

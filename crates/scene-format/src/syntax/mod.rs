@@ -12,6 +12,7 @@ mod json;
 mod json_literal;
 mod json_scan;
 pub(crate) mod ron;
+mod ron_brackets;
 mod ron_calls;
 mod ron_extensions;
 pub(crate) mod ron_literal;

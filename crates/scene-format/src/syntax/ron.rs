@@ -317,14 +317,7 @@ impl<'p> Parser<'p> {
         let node = self.builder.open(start);
         let opened = self.at;
         if self.open.len() >= MAX_DEPTH {
-            let found = self.span(opened, opened + 1);
-            self.sink.push(
-                Diagnostic::error(codes::TOO_DEEP, found, format!("brackets stand more than {MAX_DEPTH} deep"))
-                    .hint("a scene needs no more than ten"),
-            );
-            self.skip_brackets();
-            self.builder.close(node, Kind::Broken, self.at);
-            return;
+            return self.too_deep(node);
         }
         self.at += 1;
         self.open.push(Open { bracket, written, at: opened, line: self.line, indent: self.indent });
@@ -337,61 +330,29 @@ impl<'p> Parser<'p> {
             match self.peek() {
                 Some(close @ (b')' | b']' | b'}')) => match self.fate(close) {
                     Fate::Closes => {
-                        if bracket != written
-                            && let Some(&open) = self.open.last()
-                        {
-                            let name = self.text[start..opened].trim_end();
-                            let fault = brackets::wrong_kind(self.text, self.builder.source, open, name, self.at);
-                            self.sink.push(fault);
-                            // What is missing besides is told once the brackets are right.
-                            if bracket == b'(' && start < opened {
-                                self.builder.leaf(Kind::Broken, self.at, self.at);
-                            }
+                        if bracket != written {
+                            self.of_wrong_kind(start);
                         }
                         self.at += 1;
                         break;
                     }
                     Fate::Typo => {
-                        if let Some(&open) = self.open.last() {
-                            self.sink.push(brackets::wrong_closer(self.builder.source, open, self.at, close));
-                        }
-                        self.at += 1;
+                        self.closed_by_another(close);
                         break;
                     }
                     Fate::ClosesOuter => {
-                        self.report_unclosed(Some(self.at));
-                        self.builder.leaf(Kind::Broken, self.at, self.at);
+                        self.left_open(Some(self.at));
                         break;
                     }
-                    Fate::Stray => {
-                        let fault = brackets::stray(self.text, self.builder.source, self.at);
-                        let closes = self.open.last().is_some_and(|open| brackets::closer_of(open.bracket) == close);
-                        self.sink.push(if closes { brackets::early(fault) } else { fault });
-                        self.at += 1;
-                        self.trivia();
-                        if self.peek() == Some(b',') {
-                            self.at += 1;
-                        }
-                    }
+                    Fate::Stray => self.closes_nothing(close),
                 },
                 None => {
-                    self.report_unclosed(None);
-                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    self.left_open(None);
                     break;
                 }
-                Some(b',') => {
-                    let found = self.span(self.at, self.at + 1);
-                    let mut fault =
-                        Diagnostic::error(codes::MISSING_VALUE, found, "there is nothing before this comma")
-                            .hint("remove one of the two commas");
-                    fault.edit = Some(Edit { span: found, replacement: String::new() });
-                    self.sink.push(fault);
-                    self.at += 1;
-                }
+                Some(b',') => self.nothing_before_comma(),
                 Some(_) if self.line_ends_bracket() => {
-                    self.separated = true;
-                    self.report_unclosed(Some(self.at));
-                    self.builder.leaf(Kind::Broken, self.at, self.at);
+                    self.left_open_before_entry();
                     break;
                 }
                 Some(_) => {
@@ -460,18 +421,11 @@ impl<'p> Parser<'p> {
             {
                 *shape = Shape::Positional;
             }
-            (b'[', _, Some(_)) => {
-                let in_fields = self.open.len() >= 2 && self.open[self.open.len() - 2].bracket == b'(';
-                let behind = self.open.last().is_some_and(|open| open.line < self.line)
-                    && brackets::fields_behind(self.text, self.at).is_some();
-                if in_fields && !behind && *shape == Shape::Positional {
-                    self.separated = true;
-                    self.report_unclosed(Some(self.at));
-                    self.builder.leaf(Kind::Broken, self.at, self.at);
-                    return false;
-                }
-                self.named_in_list();
+            (b'[', Shape::Positional, Some(_)) if self.is_field_after_list() => {
+                self.left_open_before_entry();
+                return false;
             }
+            (b'[', _, Some(_)) => self.named_in_list(),
             (b'[', ..) => {
                 *shape = Shape::Positional;
                 self.value();
@@ -480,63 +434,25 @@ impl<'p> Parser<'p> {
                 self.builder.leaf(Kind::Broken, self.at, self.at);
                 self.skip_broken();
             }
+            (_, Shape::Positional, Some(length)) => {
+                *shape = Shape::Mixed;
+                self.named_after_unnamed(length);
+            }
             (_, _, Some(length)) => {
-                if *shape == Shape::Positional {
-                    *shape = Shape::Mixed;
-                    let found = self.span(self.at, self.at + length);
-                    let opened = self.open.last().map_or(self.at, |open| open.at + 1);
-                    let first = self.text[opened..].trim_start();
-                    let first = self.text.len() - first.len();
-                    let mut fault = Diagnostic::error(
-                        codes::MIXED_FIELDS,
-                        found,
-                        "named and unnamed values stand in one pair of brackets",
-                    )
-                    .hint("write the name of each value, `name: value`, or of none")
-                    .label(self.span(first, first + 1), "this has no name");
-                    // The two kinds whose first value may stand alone.
-                    let name = self.text[..opened - 1].trim_end();
-                    let bare =
-                        [("Scale", "factor"), ("DropTo", "y")].into_iter().find(|(kind, _)| name.ends_with(kind));
-                    if let Some((_, field)) = bare {
-                        let replacement = format!("{field}: ");
-                        fault.hint = format!("write `{replacement}` before the first value");
-                        fault.edit = Some(Edit { span: self.span(first, first), replacement });
-                    }
-                    self.sink.push(fault);
-                    self.builder.leaf(Kind::Broken, self.at, self.at);
-                    self.skip_broken();
-                } else {
-                    *shape = Shape::Named;
-                    self.field(length);
-                }
+                *shape = Shape::Named;
+                self.field(length);
             }
-            (_, Shape::Named, None) => {
-                if self.next_item_ahead() {
-                    self.separated = true;
-                    self.report_unclosed(Some(self.at));
-                    self.builder.leaf(Kind::Broken, self.at, self.at);
-                    return false;
-                }
-                self.value_without_name();
+            (_, Shape::Named, None) if self.next_item_ahead() => {
+                self.left_open_before_entry();
+                return false;
             }
+            (_, Shape::Named, None) => self.value_without_name(),
             (_, _, None) => {
                 *shape = Shape::Positional;
                 self.value();
             }
         }
         true
-    }
-
-    /// The innermost bracket was not closed before `noticed` (`None`: before the end of the file).
-    fn report_unclosed(&mut self, noticed: Option<usize>) {
-        let Some(&open) = self.open.last() else { return };
-        // At the end of the file the innermost open bracket stands for all that are open.
-        if noticed.is_none() && self.at_end_reported {
-            return;
-        }
-        self.at_end_reported |= noticed.is_none();
-        self.sink.push(brackets::unclosed(self.builder.source, open, noticed));
     }
 
     /// The comma after an entry, or the end of the bracket.

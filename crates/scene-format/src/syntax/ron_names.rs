@@ -163,6 +163,29 @@ impl Parser<'_> {
         true
     }
 
+    /// A field whose name has this length stands after values without names: it is told, and passed over.
+    pub(super) fn named_after_unnamed(&mut self, length: usize) {
+        let found = self.span(self.at, self.at + length);
+        let opened = self.open.last().map_or(self.at, |open| open.at + 1);
+        let first = self.text[opened..].trim_start();
+        let first = self.text.len() - first.len();
+        let message = "named and unnamed values stand in one pair of brackets";
+        let mut fault = Diagnostic::error(codes::MIXED_FIELDS, found, message)
+            .hint("write the name of each value, `name: value`, or of none")
+            .label(self.span(first, first + 1), "this has no name");
+        // The two kinds whose first value may stand alone.
+        let name = self.text[..opened - 1].trim_end();
+        let bare = [("Scale", "factor"), ("DropTo", "y")].into_iter().find(|(kind, _)| name.ends_with(kind));
+        if let Some((_, field)) = bare {
+            let replacement = format!("{field}: ");
+            fault.hint = format!("write `{replacement}` before the first value");
+            fault.edit = Some(Edit { span: self.span(first, first), replacement });
+        }
+        self.sink.push(fault);
+        self.builder.leaf(Kind::Broken, self.at, self.at);
+        self.skip_broken();
+    }
+
     pub(super) fn named_in_list(&mut self) {
         let start = self.at;
         if let Some(end) = brackets::fields_behind(self.text, start) {

@@ -258,26 +258,7 @@ impl<'s> Tables<'s> {
             return None;
         };
         let alone = if many { None } else { self.kind_alone(&path[0], parents.is_empty(), builder, sink) };
-        let mut table = alone.unwrap_or(ROOT);
-        for key in parents {
-            match self.find(&builder.nodes, table, key) {
-                Some(found) if self.one_for_many.contains(&(found + 1)) => return None,
-                Some(found) if is_table(&builder.nodes, found + 1) => table = found + 1,
-                Some(found) if builder.nodes.at(found as usize + 1).kind == Kind::TableList => {
-                    table = builder.nodes.at(found as usize + 1).end;
-                }
-                Some(found) => {
-                    self.conflict(key, found, builder, sink);
-                    return None;
-                }
-                None if !self.may_imply(key, builder.source, sink) => return None,
-                None => {
-                    self.reach(table, 0, builder);
-                    self.key(table, key, builder);
-                    table = self.table(Kind::ImpliedTable, header, builder);
-                }
-            }
-        }
+        let table = self.parent(alone.unwrap_or(ROOT), parents, header, builder, sink)?;
         let alone = many && table == ROOT && parents.is_empty();
         let again = alone && self.is_last_list(last, builder);
         let found = if again { Some(self.last_list) } else { self.find(&builder.nodes, table, last) };
@@ -325,6 +306,38 @@ impl<'s> Tables<'s> {
                 None
             }
         }
+    }
+
+    /// The table that the last name of a header is of: goes down the names before that from `table`, and makes tables
+    /// that are not there. `None`: one of them is no table, or there are too many, which has been reported.
+    fn parent(
+        &mut self,
+        mut table: u32,
+        names: &[Key],
+        header: &Range<usize>,
+        builder: &mut Builder,
+        sink: &mut Sink,
+    ) -> Option<u32> {
+        for key in names {
+            match self.find(&builder.nodes, table, key) {
+                Some(found) if self.one_for_many.contains(&(found + 1)) => return None,
+                Some(found) if is_table(&builder.nodes, found + 1) => table = found + 1,
+                Some(found) if builder.nodes.at(found as usize + 1).kind == Kind::TableList => {
+                    table = builder.nodes.at(found as usize + 1).end;
+                }
+                Some(found) => {
+                    self.conflict(key, found, builder, sink);
+                    return None;
+                }
+                None if !self.may_imply(key, builder.source, sink) => return None,
+                None => {
+                    self.reach(table, 0, builder);
+                    self.key(table, key, builder);
+                    table = self.table(Kind::ImpliedTable, header, builder);
+                }
+            }
+        }
+        Some(table)
     }
 
     /// `[Box]` right after `[[objects]]`, or `[Box.material]` after both: the item of the list, for which it is taken;
