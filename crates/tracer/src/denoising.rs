@@ -81,13 +81,10 @@ impl Denoiser {
         }
     }
 
-    fn of_film(&self, film: &Film) -> Result<Denoised, Fault> {
+    /// A signal ends it, but not one that has ended the rendering.
+    fn of_film(&self, film: &Film, rendering_ended: bool) -> Result<Denoised, Fault> {
         match self {
-            Denoiser::BuiltIn => {
-                // A signal that has ended the rendering does not end this, too.
-                let is_ended = interrupt::requested().is_some();
-                Ok(denoise_while(film, &|| is_ended || interrupt::requested().is_none())?)
-            }
+            Denoiser::BuiltIn => Ok(denoise_while(film, &|| rendering_ended || interrupt::requested().is_none())?),
             Denoiser::Oidn(oidn) => {
                 let noisy = Noisy::of(film)?;
                 let Noisy { width, height, color, albedo, normal, .. } = &noisy;
@@ -186,13 +183,14 @@ impl Developed {
     }
 }
 
-/// Develops a film, denoised if that is wanted, with those of its layers that are to be written.
+/// Develops a film, denoised if that is wanted, with those of its layers that are to be written; `rendering_ended`: a
+/// signal has ended its rendering. One that came when all samples were under way ends the denoising.
 ///
 /// # Errors
 /// When the film lacks what denoising needs. With too few samples, and where a library fails, it is not denoised, and
 /// the picture has its noise: nothing that was rendered is lost.
 pub fn picture(
-    film: &Film,
+    (film, rendering_ended): (&Film, bool),
     look: &Look,
     written: LayerSet,
     denoiser: Option<&Denoiser>,
@@ -200,7 +198,7 @@ pub fn picture(
 ) -> Result<Developed, Failure> {
     let started = Instant::now();
     let (mut fault, mut is_ended) = (None, false);
-    let denoised = match denoiser.map(|denoiser| denoiser.of_film(film)).transpose() {
+    let denoised = match denoiser.map(|denoiser| denoiser.of_film(film, rendering_ended)).transpose() {
         Ok(denoised) => denoised,
         Err(Fault::Film(error @ DenoiseError::Samples)) => {
             shell.say(&format!("warning: the picture is not denoised: {error}"));

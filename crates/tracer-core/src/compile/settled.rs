@@ -176,8 +176,8 @@ mod tests {
     fn places(objects: &str) -> Vec<[f64; 3]> {
         let desc = scene(objects);
         let gathered = gather(&desc, &DISK).expect("a scene that compiles");
-        let balls = gathered.curved.iter().flat_map(|curved| &curved.maps);
-        let boxes = gathered.placed.maps.iter().flatten();
+        let balls = gathered.objects.curved.iter().flat_map(|curved| &curved.maps);
+        let boxes = gathered.objects.placed.maps.iter().flatten();
         balls.chain(boxes).map(|map| map.translation.to_array()).collect()
     }
 

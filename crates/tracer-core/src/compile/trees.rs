@@ -1,6 +1,7 @@
 //! The trees: over all there is, and, where objects are hidden from the camera, over what its rays meet.
 
 use super::{CompileError, Sources, meshes};
+use scene_format::desc::Integrator;
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, SceneDesc, codes};
 use std::sync::Arc;
@@ -9,7 +10,7 @@ use tracer_kernels::scene::{CameraSees, Material, PlaneTable, Shape, Solids, Sph
 
 /// Which objects are hidden from the camera, by their place in the scene, lamps that are no objects behind them; none
 /// where none is.
-pub(super) fn hidden(desc: &SceneDesc) -> Vec<bool> {
+fn hidden(desc: &SceneDesc) -> Vec<bool> {
     let objects = desc.objects.iter().map(|object| !object.value.camera_visible());
     let hidden: Vec<bool> = objects.chain(desc.lights.iter().map(|light| !light.value.camera_visible())).collect();
     if hidden.contains(&true) { hidden } else { Vec::new() }
@@ -27,14 +28,43 @@ pub(super) struct Hung<'a> {
     pub(super) sources: &'a Sources<'a>,
 }
 
+/// All trees of a scene.
+pub(super) struct Trees {
+    /// What rays meet.
+    pub(super) accel: Option<Arc<bvh::Accel>>,
+    /// What camera rays meet, where some objects are hidden from them.
+    pub(super) camera_sees: Option<Arc<CameraSees>>,
+    /// Who shares what goes by its boxes.
+    pub(super) hierarchy: Option<Arc<bvh::Accel>>,
+}
+
 impl Hung<'_> {
+    /// Builds all that a scene needs.
+    ///
+    /// # Errors
+    /// The scene cannot be traced.
+    pub(super) fn trees(
+        &self,
+        desc: &SceneDesc,
+        acceleration: bvh::Acceleration,
+        spheres: &SphereTable,
+        planes: &PlaneTable,
+    ) -> Result<Trees, CompileError> {
+        let accel = self.tree(acceleration, &[])?;
+        let camera_sees = self.camera_sees(acceleration, hidden(desc), spheres, planes)?;
+        let full = desc.render.integrator == Integrator::Full;
+        // Who shares what goes by the boxes of the hierarchy, whatever finds the hits: the picture must not depend on
+        // that.
+        let hierarchy = match &accel {
+            Some(_) if acceleration != bvh::Acceleration::Bvh && full => self.tree(bvh::Acceleration::Bvh, &[])?,
+            accel => accel.clone(),
+        };
+        Ok(Trees { accel, camera_sees, hierarchy })
+    }
+
     /// The tree over meshes, curved shapes and those spheres that are too many to be tested by every ray, without
     /// hidden objects; none when there is nothing to hang in it.
-    pub(super) fn tree(
-        &self,
-        acceleration: bvh::Acceleration,
-        hidden: &[bool],
-    ) -> Result<Option<Arc<bvh::Accel>>, CompileError> {
+    fn tree(&self, acceleration: bvh::Acceleration, hidden: &[bool]) -> Result<Option<Arc<bvh::Accel>>, CompileError> {
         let is_hidden = |object: u32| LeftOut::holds(hidden, object as usize);
         let spheres: Vec<bool> = self.spheres[..self.in_tree].iter().map(|sphere| is_hidden(sphere.object)).collect();
         let shapes: Vec<bool> = self.shapes.iter().map(|shape| is_hidden(shape.object)).collect();
@@ -61,7 +91,7 @@ impl Hung<'_> {
     }
 
     /// What camera rays meet, where some objects are hidden from them.
-    pub(super) fn camera_sees(
+    fn camera_sees(
         &self,
         acceleration: bvh::Acceleration,
         hidden: Vec<bool>,

@@ -236,7 +236,7 @@ fn again(
         return Ok(None);
     }
     let layers = layer_set(&desc.output.layers);
-    let developed = denoising::picture(&film, &scene.look, layers, denoiser.as_ref(), shell)?;
+    let developed = denoising::picture((&film, false), &scene.look, layers, denoiser.as_ref(), shell)?;
     let Developed { mut image, denoised, fault, is_ended } = developed;
     if is_ended {
         return Ok(None);

@@ -15,7 +15,7 @@ use super::bounds::Bounds;
 use super::coplanar::{Coplanar, Ranks};
 use super::geometry::{Geometry, LeftOut, NONE, ShapeGeometry};
 use super::kernels::{DEEPEST, MeshRecord};
-use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, SecondBoxes, TopBoxes};
+use super::layout::{INSTANCE_UNITS, InstanceRecord, Ref, SecondBoxes, TopBoxes, Unit};
 use super::ray_space::RANGE;
 use super::{Accel, AccelStats, Acceleration};
 use crate::level::Level;
@@ -110,78 +110,30 @@ pub fn build(geometry: &Geometry, acceleration: Acceleration, ranks: &Ranks) -> 
     let start = Instant::now();
     check(geometry)?;
     let (direct, placed) = places(geometry);
-
-    let mesh_trees: Vec<Option<Tree>> = (0..geometry.meshes.len())
-        .into_par_iter()
-        .map(|mesh| {
-            placed[mesh].then(|| triangle_tree(TriangleList::new(geometry, &[mesh as u32]), acceleration)).transpose()
-        })
-        .collect::<Result<_, _>>()?;
-    let mut meshes: Vec<MeshRecord> = Vec::with_capacity(geometry.meshes.len());
-    for (mesh, data) in geometry.meshes.iter().enumerate() {
-        let first_primitive = data.first_primitive;
-        meshes.push(MeshRecord { first_primitive, direct_instance: direct[mesh], root: Ref::END.0 });
-    }
-
+    let mesh_trees = mesh_trees(geometry, &placed, acceleration)?;
     let world = {
         let boxes = instance_boxes(geometry, &direct, &mesh_trees)?;
         world_tree(geometry, &direct, &boxes, acceleration)?
     };
 
+    // The world's is the last.
     let trees: Vec<&Tree> = mesh_trees.iter().flatten().chain([&world]).collect();
     let plans: Vec<Plan> = trees.par_iter().map(|tree| Plan::new(&tree.nodes, &tree.contents)).collect();
-    let instances = geometry.instances.len();
-    let record_units = instances as u64 * u64::from(INSTANCE_UNITS);
-    let units = plans.iter().fold(record_units, |sum, plan| sum + u64::from(plan.units));
-    let most = u64::from(Ref::LIMIT);
-    if units > most || instances as u64 > most {
-        return Err(BuildError::TooLarge { bytes: units * 32, most: most * 32 });
-    }
-    let mut arena = Arena::new(units as usize)
-        .map_err(|error| BuildError::Memory { bytes: units * 32, reason: error.to_string() })?;
-    let (record_part, mut rest) = arena.units_mut().split_at_mut(record_units as usize);
-    write_records(geometry, &direct, &mesh_trees, bytemuck::cast_slice_mut(record_part));
-    let mut at = record_units as u32;
-    let mut parts = Vec::with_capacity(trees.len());
-    let mut roots = Vec::with_capacity(trees.len());
-    for (tree, plan) in trees.iter().zip(&plans) {
-        let (part, after) = rest.split_at_mut(plan.units as usize);
-        roots.push(plan.root(&tree.nodes, at));
-        parts.push((tree, plan, at, part));
-        at += plan.units;
-        rest = after;
-    }
-    parts.into_par_iter().for_each(|(tree, plan, at, part)| plan.write(&tree.nodes, &tree.contents, at, part));
+    let mut arena = room(geometry, &plans)?;
+    let first = record_units(geometry) as u32;
+    let (records, units) = arena.units_mut().split_at_mut(first as usize);
+    write_records(geometry, &direct, &mesh_trees, bytemuck::cast_slice_mut(records));
+    let roots = write_trees(&trees, &plans, first, units);
+    let (meshes, root) = with_roots(geometry, &direct, &mesh_trees, &roots);
 
-    let mut placed_meshes = mesh_trees.iter().enumerate().filter(|(_, tree)| tree.is_some()).map(|(mesh, _)| mesh);
-    let mut root = Ref::END;
-    for reference in roots {
-        match placed_meshes.next() {
-            Some(mesh) => meshes[mesh].root = reference.0,
-            None => root = reference,
-        }
-    }
-    let world_plan = plans.last();
-    let below = plans[..plans.len() - 1].iter().map(|plan| plan.depth).max().unwrap_or(0);
-    let depth = world_plan.map_or(0, |plan| plan.depth) + below;
-    // The binary trees are no deeper than their builder allows, so neither are these; the kernels' stacks rely on it.
-    assert!(depth as usize <= DEEPEST, "a tree of depth {depth} exceeds the traversal's stack");
-    let table_bytes = meshes.len() * size_of::<MeshRecord>() + size_of_val(geometry.parts);
+    let depth = depth(&plans);
     let coplanar = Coplanar::find(geometry, ranks);
-    let stats = AccelStats {
-        triangles: trees.iter().map(|tree| tree.contents.triangles.count()).sum(),
-        parts: trees.iter().map(|tree| tree.contents.triangles.list.parts() as u64).sum(),
-        spheres: world.contents.spheres.order.len() as u64,
-        shapes: world.contents.shapes.order.len() as u64,
-        instances: world.contents.instances.order.len() as u64,
-        nodes: plans.iter().map(|plan| plan.nodes).sum(),
-        leaves: plans.iter().map(|plan| plan.leaves).sum(),
-        depth,
-        bytes: (arena.bytes() + table_bytes) as u64,
-        seconds: start.elapsed().as_secs_f64(),
-    };
-    let top = TopBoxes::of(root, arena.units(), &world.contents.bounds);
-    let second = SecondBoxes::of(root, arena.units(), &world.contents.bounds);
+    let table_bytes = meshes.len() * size_of::<MeshRecord>() + size_of_val(geometry.parts);
+    let bytes = (arena.bytes() + table_bytes) as u64;
+    let stats = AccelStats { depth, bytes, seconds: start.elapsed().as_secs_f64(), ..counted(&trees, &plans) };
+    let bounds = world.contents.bounds;
+    let top = TopBoxes::of(root, arena.units(), &bounds);
+    let second = SecondBoxes::of(root, arena.units(), &bounds);
     Ok(Accel {
         arena,
         root,
@@ -190,13 +142,92 @@ pub fn build(geometry: &Geometry, acceleration: Acceleration, ranks: &Ranks) -> 
         meshes,
         parts: geometry.parts.to_vec(),
         spheres: geometry.spheres.len() as u32,
-        instances: instances as u32,
-        bounds: world.contents.bounds,
-        size: size_of_scene(&world.contents.bounds),
+        instances: geometry.instances.len() as u32,
+        bounds,
+        size: size_of_scene(&bounds),
         level: Level::best(),
         coplanar,
         stats,
     })
+}
+
+/// The trees of those meshes that are placed.
+fn mesh_trees<'a>(
+    geometry: &Geometry<'a>,
+    placed: &[bool],
+    acceleration: Acceleration,
+) -> Result<Vec<Option<Tree<'a>>>, BuildError> {
+    let tree = |mesh: usize| {
+        placed[mesh].then(|| triangle_tree(TriangleList::new(geometry, &[mesh as u32]), acceleration)).transpose()
+    };
+    (0..geometry.meshes.len()).into_par_iter().map(tree).collect()
+}
+
+/// The units of the records of all instances, which lie before the trees.
+fn record_units(geometry: &Geometry) -> u64 {
+    geometry.instances.len() as u64 * u64::from(INSTANCE_UNITS)
+}
+
+/// An arena for the records and for what is planned.
+fn room(geometry: &Geometry, plans: &[Plan]) -> Result<Arena, BuildError> {
+    let units = plans.iter().fold(record_units(geometry), |sum, plan| sum + u64::from(plan.units));
+    let most = u64::from(Ref::LIMIT);
+    if units > most || geometry.instances.len() as u64 > most {
+        return Err(BuildError::TooLarge { bytes: units * 32, most: most * 32 });
+    }
+    Arena::new(units as usize).map_err(|error| BuildError::Memory { bytes: units * 32, reason: error.to_string() })
+}
+
+/// Writes all trees, one behind the other, into `units`, which are those from `first` on; gives their roots.
+fn write_trees(trees: &[&Tree], plans: &[Plan], first: u32, units: &mut [Unit]) -> Vec<Ref> {
+    let (mut at, mut rest) = (first, units);
+    let mut parts = Vec::with_capacity(trees.len());
+    let mut roots = Vec::with_capacity(trees.len());
+    for (tree, plan) in trees.iter().zip(plans) {
+        let (part, after) = rest.split_at_mut(plan.units as usize);
+        roots.push(plan.root(&tree.nodes, at));
+        parts.push((tree, plan, at, part));
+        at += plan.units;
+        rest = after;
+    }
+    parts.into_par_iter().for_each(|(tree, plan, at, part)| plan.write(&tree.nodes, &tree.contents, at, part));
+    roots
+}
+
+/// The records of the meshes with the roots of their trees, and the root of the world, which is the last.
+fn with_roots(geometry: &Geometry, direct: &[u32], trees: &[Option<Tree>], roots: &[Ref]) -> (Vec<MeshRecord>, Ref) {
+    let mut roots = roots.iter().copied();
+    let record = |(mesh, tree): (usize, &Option<Tree>)| MeshRecord {
+        first_primitive: geometry.meshes[mesh].first_primitive,
+        direct_instance: direct[mesh],
+        root: tree.as_ref().and_then(|_| roots.next()).unwrap_or(Ref::END).0,
+    };
+    let meshes = trees.iter().enumerate().map(record).collect();
+    (meshes, roots.next().unwrap_or(Ref::END))
+}
+
+/// Nodes on the longest way down: through the world, and from there through a mesh.
+fn depth(plans: &[Plan]) -> u32 {
+    let Some((world, meshes)) = plans.split_last() else { return 0 };
+    let depth = world.depth + meshes.iter().map(|plan| plan.depth).max().unwrap_or(0);
+    // The binary trees are no deeper than their builder allows, so neither are these; the kernels' stacks rely on it.
+    assert!(depth as usize <= DEEPEST, "a tree of depth {depth} exceeds the traversal's stack");
+    depth
+}
+
+/// What can be counted of trees and their plans.
+fn counted(trees: &[&Tree], plans: &[Plan]) -> AccelStats {
+    let of_world = |count: fn(&Contents) -> usize| trees.last().map_or(0, |world| count(&world.contents) as u64);
+    AccelStats {
+        triangles: trees.iter().map(|tree| tree.contents.triangles.count()).sum(),
+        parts: trees.iter().map(|tree| tree.contents.triangles.list.parts() as u64).sum(),
+        spheres: of_world(|contents| contents.spheres.order.len()),
+        shapes: of_world(|contents| contents.shapes.order.len()),
+        instances: of_world(|contents| contents.instances.order.len()),
+        nodes: plans.iter().map(|plan| plan.nodes).sum(),
+        leaves: plans.iter().map(|plan| plan.leaves).sum(),
+        ..AccelStats::default()
+    }
 }
 
 /// Of each mesh the instance whose triangles are in the world's tree, or [`NONE`], and whether others are placed.

@@ -55,7 +55,7 @@ pub(super) fn run(args: &MergeArgs, shell: &Shell, started: Instant) -> Result<E
         outputs::tell_of_alpha(&outputs, shell);
     }
     let layers = picture_layers(notes).unwrap_or(film.layers());
-    let developed = denoising::picture(&film, &look, layers, denoiser.as_ref(), shell)?;
+    let developed = denoising::picture((&film, false), &look, layers, denoiser.as_ref(), shell)?;
     let is_noisy = developed.is_noisy(shell);
     let Developed { mut image, denoised, .. } = developed;
     let mattes = mattes(notes).unwrap_or_default();

@@ -30,6 +30,13 @@ pub(super) struct Kept {
     _lock: Option<Lock>,
 }
 
+impl Kept {
+    /// Writes the last checkpoint, where there are any; gives its name.
+    pub(super) fn end(&mut self, film: &Film) -> Option<anyhow::Result<String>> {
+        self.checkpoints.take().map(|checkpoints| checkpoints.end(film))
+    }
+}
+
 impl Places {
     /// Whether a file is the one that is written.
     pub(super) fn writes(&self, other: &Place) -> bool {

@@ -1,40 +1,43 @@
 //! `tracer render`: a scene becomes pictures, and a report.
 
+mod asked;
 mod empty;
 pub(super) mod frames;
 mod goals;
 mod kept;
 pub(super) mod outputs;
 pub(super) mod parts;
+mod picture;
+mod ready;
 mod reference;
+mod rendered;
 pub(super) mod repeat;
+mod report;
 pub(super) mod rescue;
+mod told;
+mod written;
 
-use crate::args::{DenoiseArgs, DenoiseName, IntegratorName, RenderArgs};
+use crate::args::{DenoiseName, IntegratorName, RenderArgs};
 use crate::cache::Cache;
-use crate::checkpoint::{Checkpoints, Extent, assets_hash, part_told};
-use crate::denoising::{self, Denoiser, Developed};
 use crate::failure::{Failure, exit};
-use crate::loading::{Known, asset_files, compile, expect_all_moments, is_dash, load, use_threads};
-use crate::progress::{Watch, noise_of, rate};
-use crate::report::{
-    ClampedReport, FileReport, Machine, Memory, Noise, PictureReport, Primitives, Rays, Report, Samples, SceneReport,
-    Seconds, Stats, Transport, Tree, VERSION,
-};
+use crate::loading::{is_dash, load, use_threads};
+use crate::report::{Report, Seconds};
 use crate::shell::Shell;
 use crate::write::{Place, save};
-use crate::{interrupt, lanes, layer_view, memory};
-use frames::{AtEnd, Frames};
-use goals::Afterwards;
-use kept::{Kept, Places};
-use rescue::{Pictures, Rescued, pictures, rescue};
+use crate::{denoising, interrupt, memory};
+use asked::Asked;
+use frames::Frames;
+use picture::Picture;
+use ready::Ready;
+use rendered::Rendered;
 use scene_format::SceneDesc;
 use scene_format::desc::Integrator;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
-use tracer_core::{Counters, Crop, Film, Image, Layer, Mattes, RenderOptions, Scene, render, resume};
+use tracer_core::{Crop, Film, Mattes};
+use written::Written;
 
 pub(super) fn run(args: &RenderArgs, shell: &Shell, started: Instant) -> Result<ExitCode, Failure> {
     use_threads(args.threads)?;
@@ -76,272 +79,72 @@ fn one(
     args: &RenderArgs,
     shell: &Shell,
     started: Instant,
-    (frames, cache): (Option<&Frames>, Option<&Cache>),
+    session: (Option<&Frames>, Option<&Cache>),
 ) -> Result<ExitCode, Failure> {
-    let mut clock = Clock { last: started };
-    let args = &outputs::named(args)?;
-    let part_file = args.part.map(|_| parts::place(args)).transpose()?;
-    let outputs = if part_file.is_some() { Vec::new() } else { outputs::outputs(args)? };
-    let level = lanes::from_environment()?;
-    outputs::probe(&outputs, args.report.as_deref())?;
-    // A part is denoised by whoever merges it.
-    let denoiser = if part_file.is_some() { None } else { Denoiser::ready(args.denoise.how())? };
-    let places = Places::new(args, shell)?;
-    let mut desc = AtEnd::new(described(args, shell)?, frames);
-    frames.map_or(Ok(()), |frames| frames.is_as_before(&desc))?;
-    let crop = crop(args, &desc)?;
-    let part = parts::part(args, &desc, crop)?;
-    let crop = part.map_or(crop, |part| part.crop);
-    check_memory(crop, &desc, args.denoise.how())?;
-    if part.is_none() && args.show.is_none() && frames.is_none() {
-        outputs::tell_of_layers(&outputs, args, &desc, shell);
-    }
-    let named: Vec<PathBuf> = asset_files(&desc).into_iter().map(|file| desc.base_dir.join(file)).collect();
-    outputs::spare_inputs(&outputs, args, &named)?;
-    if frames.is_none() {
-        let written: Vec<_> = outputs::written(args).map(|(option, path)| (option, path.to_owned())).collect();
-        outputs::spare_mentioned(&written, &desc)?;
-    }
+    let mut clock = Clock { started, last: started };
+    let (mut asked, places) = Asked::new(args, shell, session)?;
     let read = clock.lap();
-
-    let known = match (frames, cache) {
-        (Some(frames), _) => Known::Kept(&frames.kept),
-        (None, Some(cache)) => Known::Cached(cache),
-        (None, None) => Known::Nothing,
-    };
-    let mut scene = AtEnd::new(compile(&desc, args.scene.diagnostics, known, shell)?, frames);
-    // Not the one that a backdrop needs, unless it is asked for.
-    let written_layers = tracer_core::layer_set(&desc.output.layers);
-    goals::is_of_moments(args.plan, &scene)?;
-    denoising::prepare(&mut scene, args.denoise.is_on())?;
-    // Only now it is known what the meshes' own materials name.
-    outputs::spare_inputs(&outputs, args, &scene.files)?;
-    outputs::spare_others(&outputs, args.report.as_deref())?;
-    // A part that is kept under its own name needs no second file.
-    let is_kept = part_file.as_ref().is_some_and(|file| places.writes(file));
-    let extent = Extent::Film(crop, part);
-    let Kept { film: begun, checkpoints, notes, .. } = &mut places.open(args, &mut desc, &scene, extent, shell)?;
-    let hashing = kept::hashing(args, notes, &scene, &desc, (frames, cache));
+    let mut ready = Ready::new(&mut asked, places)?;
     let compiled = clock.lap();
+    let rendered = Rendered::of(&asked, &mut ready, &mut clock)?;
 
-    if frames.is_none() {
-        interrupt::listen(*shell)?;
+    rendered.settle(&mut asked);
+    if rendered.is_too_little(&asked.outputs) {
+        told::of_no_picture(&rendered, &mut ready.kept, shell);
+        return Ok(interrupted());
     }
-    let pixels = u64::from(crop.width) * u64::from(crop.height);
-    let before = Before::of(begun.as_ref());
-    let done = pixels * u64::from(before.samples);
-    let asked = part.map_or(scene.samples, |part| part.end - part.first);
-    let all = pixels * u64::from(asked);
-    let channels = 4
-        + tracer_core::film_layers(&desc.output).channels()
-        + scene.mattes.channels()
-        + 3 * begun.as_ref().map_or(tracer_core::most_light_groups(&desc), |film| film.light_groups().len());
-    let afterwards = Afterwards {
-        outputs: &outputs,
-        channels,
-        is_denoised: denoiser.is_some(),
-        threads: rayon::current_num_threads(),
-    };
-    let goals = goals::goals(&desc, crop, &afterwards, started);
-    let watch = Watch::new(shell, all).going_on(done, all, checkpoints.as_ref()).until(goals);
-    let options = RenderOptions {
-        crop: Some(crop),
-        part,
-        threads: args.threads.map_or(0, usize::from),
-        level: Some(level),
-        until: goals.until,
-        plan: args.plan,
-        halves: args.denoise.is_on(),
-        mattes: scene.mattes.kept(),
-        statistics: args.stats,
-        longest_pass: checkpoints.as_ref().map(Checkpoints::longest_pass),
-        ..RenderOptions::default()
-    };
-    let film = match begun.take() {
-        Some(film) => resume(&scene, &options, film, &watch).map_err(|misfit| Failure::wrong(misfit.to_string()))?,
-        None => render(&scene, &options, &watch),
-    };
-    watch.finish();
-    expect_all_moments(&film, &desc, args.scene.diagnostics, shell)?;
-    let rendered = clock.lap();
-
-    let (fewest, most) = film.samples().into_inner();
-    let interrupted = fewest < asked && interrupt::requested().is_some();
-    if part.is_none() && args.plan.is_none() {
-        goals::end(&mut desc, &film, interrupted, shell);
+    let is_frame = asked.frames.is_some();
+    if rendered.interrupted && is_frame {
+        return frames::unfinished(ready.kept.end(&rendered.film), shell);
     }
-    let args = &RenderArgs { plan: film.plan().filter(|_| !interrupted), ..args.clone() };
-    // Of a picture that is there already there is more than of one that has hardly begun.
-    if most == 0 || interrupted && fewest == 0 && outputs::are_there(&outputs) {
-        if let Some(Err(error)) = checkpoints.take().filter(|_| most > 0).map(|checkpoints| checkpoints.end(&film)) {
-            shell.error(&error);
-        }
-        shell.say(match most {
-            0 => "interrupted before the first sample: no picture is written",
-            _ => "interrupted before all pixels had a sample: the picture that was there stays",
-        });
-        return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
+    let picture = Picture::of(&mut asked, &ready, &rendered)?;
+    if picture.is_ended && is_frame {
+        return frames::unfinished(ready.kept.end(&rendered.film), shell);
     }
-    if interrupted && frames.is_some() {
-        return frames::unfinished(checkpoints.take().map(|checkpoints| checkpoints.end(&film)), shell);
-    }
-    let made = (!outputs.is_empty())
-        .then(|| denoising::picture(&film, &scene.look, written_layers, denoiser.as_ref(), shell))
-        .transpose()?;
-    let is_noisy = made.as_ref().is_some_and(|made| made.is_noisy(shell));
-    let is_ended = made.as_ref().is_some_and(|made| made.is_ended);
-    // The picture is the one that comes without.
-    let denoise = if is_ended { DenoiseArgs { denoise: None } } else { args.denoise };
-    let args = &RenderArgs { denoise, ..args.clone() };
-    if is_ended && frames.is_some() {
-        return frames::unfinished(checkpoints.take().map(|checkpoints| checkpoints.end(&film)), shell);
-    }
-    let (mut image, denoised) = made.map(|Developed { image, denoised, .. }| (image, denoised)).unzip();
-    if let Some(image) = image.as_mut().filter(|_| outputs::has_exr(&outputs)) {
-        image.mattes = scene.mattes.develop(&film);
-    }
-    if let Some(layer) = args.show {
-        image = shown(layer, &film, shell);
-    }
+    let picture = picture.into_written(&asked, &ready, &rendered.film);
     let developed = clock.lap();
 
-    notes.extend(kept::hashed(hashing, shell));
-    let denoised = denoised.flatten();
-    let denoised_by = denoiser.filter(|_| denoised.is_some()).map(|by| by.name().name());
-    let provenance = kept::provenance(args, notes, &film, denoised_by);
-    // First, because all else can be made of it. The pictures are written whatever becomes of it.
-    let kept = checkpoints.take().map(|checkpoints| checkpoints.end(&film));
-    if let Some(Err(error)) = &kept {
-        shell.error(error);
-    }
-    let written = image.as_ref().map(|image| pictures(&outputs, image, &provenance, shell)).transpose()?;
-    let Pictures { mut files, failed: mut elsewhere } = written.unwrap_or_default();
-    if let Some(file) = &part_file {
-        let place = Place::File(file.named().to_owned());
-        let is_there = is_kept && matches!(kept, Some(Ok(_)));
-        let rescued = rescue(&place, shell, |place| match is_there {
-            true => parts::written(place),
-            false => parts::save(place, &film, notes, shell),
-        })?;
-        let Rescued { written, name: path, elsewhere: is_elsewhere } = rescued;
-        elsewhere |= is_elsewhere;
-        files.push(FileReport { path, format: "film", bytes: written.bytes, sha256: written.sha256 });
-    }
+    let Written { files, kept, elsewhere } = Written::of(&mut asked, &mut ready, &rendered.film, &picture)?;
     let names = outputs::names(&files);
-    let to_open = args.open.then(|| outputs::to_open(&files)).flatten();
-    let mut report = args
-        .report
-        .is_some()
-        .then(|| report(args, &desc, &scene, &film, rendered, files, interrupted || is_ended, &before));
-    if let Some(report) = &mut report {
-        report.scene.assets = assets_hash(notes);
-        report.cache = cache.map(Cache::report);
-        report.picture.marks = tracer_core::marks(&mut scene, &desc).into_iter().map(Into::into).collect();
-        let layers = written_layers.names().map(str::to_owned);
-        let groups = film.light_groups().iter().map(|group| format!("light.{group}"));
-        report.picture.layers = layers.chain(scene.mattes.names()).chain(groups).collect();
-        report.denoise = denoised.clone();
-    }
-    let written = clock.lap();
+    let to_open = asked.args.open.then(|| outputs::to_open(&files)).flatten();
+    let report = asked.args.report.is_some().then(|| report::report(&asked, &mut ready, &rendered, &picture, files));
     let seconds = Seconds {
         read,
-        compile: compiled - scene.times.tree,
-        build: scene.times.tree,
-        render: rendered,
+        compile: compiled - ready.scene.times.tree,
+        build: ready.scene.times.tree,
+        render: rendered.seconds,
         develop: developed,
-        write: written,
-        total: clock.last.duration_since(started).as_secs_f64(),
+        write: clock.lap(),
+        total: clock.total(),
     };
 
-    if let Some(denoised) = denoised.as_ref().filter(|_| shell.is_told()) {
-        shell.say(&denoised.to_text());
+    told::of_picture(&asked, &ready, &rendered, &picture, (&names, seconds.total));
+    if let (Some(path), Some(report)) = (&asked.args.report, report) {
+        write_report(path, Report { seconds, ..report }.to_json())?;
     }
-    tell_of(&film, args, &desc, shell);
-    shell.diagnostics(empty::warning(&film, &desc, &scene).as_slice(), &desc.sources, args.scene.diagnostics);
-    if let Some(part) = part.filter(|_| shell.is_told()) {
-        shell.say(&format!("{names} in {:.2} s: {}", seconds.total, part_told(Some(part))));
-    } else if shell.is_told() {
-        // Each group has camera rays of its own.
-        let groups = film.light_groups().len().max(1) as u64;
-        let samples = (film.counters.camera_rays - before.counters.camera_rays) / groups;
-        let speed = match samples {
-            0 => "all samples were there".to_owned(),
-            samples => rate(samples as f64 / seconds.render),
-        };
-        let noise = noise_of(&film, fewest).map_or(String::new(), |noise| format!("; {noise}"));
-        let noise = if denoised.is_some() { noise.replacen(" %", " % before it was denoised", 1) } else { noise };
-        shell.say(&format!("{names} in {:.2} s, {speed}{noise}", seconds.total));
-    }
-    if let (Some(path), Some(report)) = (&args.report, &mut report) {
-        report.seconds = seconds;
-        write_report(path, report.to_json())?;
-    }
-    if let Some(picture) = to_open.filter(|_| !interrupted) {
+    if let Some(picture) = to_open.filter(|_| !rendered.interrupted) {
         outputs::open(&picture, shell);
     }
-    if interrupted {
-        let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
-        let goes_on = kept.and_then(Result::ok).or(part.map(|_| names.clone()));
-        let goes_on = goes_on.map_or(String::new(), |name| format!("; --resume {name} goes on"));
-        shell.say(&format!("interrupted: {names} holds {held} of {asked} samples per pixel{goes_on}"));
-        return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
+    if rendered.interrupted {
+        let kept = kept.as_ref().and_then(|kept| kept.as_deref().ok());
+        told::of_interruption(&asked, &rendered, &names, kept);
+        return Ok(interrupted());
     }
-    if let Some(code) = interrupt::requested().filter(|_| is_ended) {
+    if let Some(code) = interrupt::requested().filter(|_| picture.is_ended) {
         return Ok(ExitCode::from(code));
     }
-    let failed = elsewhere || is_noisy || matches!(kept, Some(Err(_)));
+    let failed = elsewhere || picture.is_noisy || matches!(kept, Some(Err(_)));
     Ok(ExitCode::from(if failed { exit::FAILED } else { exit::DONE }))
 }
 
-/// A layer of a film in place of its picture; what its colours stand for is said.
-fn shown(layer: Layer, film: &Film, shell: &Shell) -> Option<Image> {
-    let layer = film.layer(layer)?;
-    let (image, range) = layer_view::picture(&layer, film.crop().width);
-    if let Some([low, high]) = range.map(|range| range.map(layer_view::number)).filter(|_| shell.is_told()) {
-        shell.say(&format!("{}: {low} is dark, {high} and more is bright", layer.name));
-    }
-    Some(image)
-}
-
-/// What there is to say of a film: where the time went, what was left out.
-fn tell_of(film: &Film, args: &RenderArgs, desc: &SceneDesc, shell: &Shell) {
-    if let Some(statistics) = film.statistics.as_ref().filter(|_| !args.quiet) {
-        shell.say(&Stats::new(statistics).to_text());
-        shell.say(&Transport::new(&desc.render, film).to_text());
-    } else if let Some(clamped) = film.clamped().filter(|_| shell.is_watched()) {
-        shell.say(&ClampedReport::from(clamped).to_text());
-    }
-    if film.counters.dropped > 0 {
-        shell.say(&format!(
-            "warning: {} samples were not finite and are left out; repeat with: {}",
-            film.counters.dropped,
-            repeat::command(args, desc)
-        ));
-    }
-    if film.counters.beyond > 0 {
-        shell.say(&format!(
-            "warning: {} samples were more than 6.7e7 times the brightest light and are left out",
-            film.counters.beyond
-        ));
-    }
-}
-
-/// What a checkpoint brought.
-#[derive(Clone, Copy, Default)]
-struct Before {
-    /// Samples that all pixels had.
-    samples: u32,
-    counters: Counters,
-}
-
-impl Before {
-    fn of(film: Option<&Film>) -> Self {
-        film.map_or(Before::default(), |film| Before { samples: *film.samples().start(), counters: film.counters })
-    }
+/// The exit code of what a signal has ended.
+fn interrupted() -> ExitCode {
+    ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED))
 }
 
 /// Time in laps, without gaps.
 struct Clock {
+    started: Instant,
     last: Instant,
 }
 
@@ -352,6 +155,11 @@ impl Clock {
         let seconds = now.duration_since(self.last).as_secs_f64();
         self.last = now;
         seconds
+    }
+
+    /// Seconds of all laps.
+    fn total(&self) -> f64 {
+        self.last.duration_since(self.started).as_secs_f64()
     }
 }
 
@@ -436,112 +244,6 @@ pub(super) fn check_memory(crop: Crop, desc: &SceneDesc, denoise: DenoiseName) -
             memory::human(available)
         ))),
         _ => Ok(()),
-    }
-}
-
-/// The report, but for the seconds of the phases.
-#[allow(clippy::too_many_arguments)]
-fn report(
-    args: &RenderArgs,
-    desc: &SceneDesc,
-    scene: &Scene,
-    film: &Film,
-    render_seconds: f64,
-    files: Vec<FileReport>,
-    interrupted: bool,
-    before: &Before,
-) -> Report {
-    let statistics = scene.statistics();
-    let counters = film.counters;
-    let all = |counters: &Counters| {
-        let Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, .. } = counters;
-        camera_rays + scattered_rays + shadow_rays + segments + photon_rays + chain_rays
-    };
-    let rays = all(&counters);
-    // What came from a checkpoint took its time elsewhere.
-    let per_second = |count: u64, before: u64| {
-        if render_seconds > 0.0 { (count - before) as f64 / render_seconds } else { 0.0 }
-    };
-    let (samples_min, samples_max) = film.samples().into_inner();
-    let Crop { x, y, width, height } = film.crop();
-    Report {
-        report_version: VERSION,
-        tracer_version: env!("CARGO_PKG_VERSION"),
-        command: repeat::command(args, desc),
-        interrupted,
-        scene: SceneReport {
-            file: desc.sources.first().map(|source| source.name.clone()).unwrap_or_default(),
-            hash: scene_format::hash_hex(desc),
-            assets: None,
-        },
-        picture: PictureReport {
-            width: film.size()[0],
-            height: film.size()[1],
-            crop: [x, y, width, height],
-            frame: desc.animation.frame.value,
-            camera: desc.camera_name.as_deref().map(str::to_owned),
-            seed: film.seed(),
-            samples_asked: film.part().map_or(scene.samples, |part| part.end - part.first),
-            part: film.part().map(|part| [part.first, part.end]),
-            samples_min,
-            samples_max,
-            samples_resumed: before.samples,
-            layers: film.layers().names().map(str::to_owned).collect(),
-            marks: Vec::new(),
-        },
-        transport: Transport::new(&desc.render, film),
-        rays: Rays {
-            camera: counters.camera_rays,
-            scattered: counters.scattered_rays,
-            shadow: counters.shadow_rays,
-            segments: counters.segments,
-            photons: counters.photon_rays,
-            chains: counters.chain_rays,
-            total: rays,
-            per_second: per_second(rays, all(&before.counters)),
-        },
-        samples: Samples {
-            total: counters.camera_rays,
-            per_second: per_second(counters.camera_rays, before.counters.camera_rays),
-            dropped: counters.dropped,
-            beyond: counters.beyond,
-        },
-        mean_path_length: (counters.camera_rays + counters.scattered_rays) as f64 / counters.camera_rays.max(1) as f64,
-        noise: Noise::of(film),
-        denoise: None,
-        primitives: Primitives {
-            spheres: statistics.spheres,
-            triangles: statistics.triangles,
-            placed_triangles: statistics.placed_triangles,
-            meshes: statistics.meshes,
-            instances: statistics.instances,
-            lights: statistics.lights,
-        },
-        tree: statistics.tree.map(|tree| Tree {
-            nodes: tree.nodes,
-            leaves: tree.leaves,
-            parts: tree.parts,
-            depth: tree.depth,
-            bytes: tree.bytes,
-        }),
-        memory: Memory {
-            peak: memory::peak(),
-            geometry: statistics.geometry_bytes,
-            textures: statistics.texture_bytes,
-            film: film.bytes() as u64,
-        },
-        cache: None,
-        stats: film.statistics.as_ref().map(Stats::new),
-        machine: Machine {
-            threads: film.threads,
-            simd: film.level.name(),
-            lanes: film.level.lanes(),
-            arch: std::env::consts::ARCH,
-            os: std::env::consts::OS,
-        },
-        // Told when the last phase, of which making this is part, has ended.
-        seconds: Seconds::default(),
-        files,
     }
 }
 
