@@ -67,6 +67,9 @@ pub mod path {
     pub const LATE: u32 = 64 * SHARED;
     /// All bits of that number.
     pub const LATES: u32 = 3 * LATE;
+    /// A light that the path's ray meets is found in no other way: the ray comes from the camera, a mirror or glass, or
+    /// was aimed. Its direction has no density.
+    pub const SPECULAR: u32 = 256 * SHARED;
     /// The path's ray was aimed ([`super::super::stages::aim`]): it goes on where it meets a mirror, glass or a glossy
     /// surface only.
     pub const AIMED: u32 = 16 * SHARED;
@@ -85,11 +88,10 @@ pub struct Paths {
     pub throughput: Columns,
     /// Radiance scaling of refraction, the product of (n_i / n_t)^2, times the shares of both ways at glass.
     pub eta2: Column<f32>,
-    /// Solid-angle density of the direction; negative when a light hit by it was not sampled otherwise (camera, mirror,
-    /// glass).
+    /// Solid-angle density of the direction; anything where the path is [`path::SPECULAR`].
     pub pdf: Column<f32>,
     /// Shading normal where the ray starts; written and read only where there are several lights or rays are aimed, and
-    /// `pdf` is not negative.
+    /// the path is not [`path::SPECULAR`].
     pub normal: Columns,
     /// Camera rays: one over the pixel's filter there. From a rough surface that they hit, with light paths at work: K
     /// cos J / (h P) of [`super::stages::light_paths`], before what the ray meets is known without cos and P; zero

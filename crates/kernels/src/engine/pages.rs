@@ -7,8 +7,8 @@ use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut};
 
 /// A value of zeros on pages of its own, which the system gives when they are first written. An allocator gives memory
-/// again that was freed, and writes zeros into all of it. That its type is `Copy` is what reading it from bytes asks for:
-/// nobody copies it.
+/// again that was freed, and writes zeros into all of it. That the value can be copied is what reading it from bytes
+/// asks for: nobody copies it.
 pub struct Pages<T> {
     map: MmapMut,
     of: PhantomData<T>,

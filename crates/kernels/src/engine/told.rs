@@ -5,7 +5,8 @@
 use super::stages::lights::{self, LightHit, Receiver};
 use super::stages::materials::Bsdf;
 use super::stages::shade::weight_of_ratio;
-use super::stages::surface::{Surface, surface};
+use super::stages::surface::Surface;
+use super::stages::surface_at::surface_at;
 use crate::lanes::{ArrayF, ArrayU, Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::{Pair, Purpose};
@@ -42,8 +43,8 @@ pub struct RayHit {
     pub direction: [f32; 3],
     /// Shading normal where it starts: lights that it meets had been chosen by it.
     pub normal: [f32; 3],
-    /// Density of its direction; negative where lights are found by such rays only.
-    pub pdf: f32,
+    /// Density of its direction; `None` where lights are found by such rays only.
+    pub pdf: Option<f32>,
     /// Its length.
     pub t: f32,
     /// The primitive, not NONE.
@@ -148,7 +149,7 @@ impl<'s> Vertex<'s> {
         let valid = One::first(1);
         let (origin, direction) = (V3::splat(ray.origin), V3::splat(ray.direction));
         let (primitive, instance) = (ArrayU::splat(ray.primitive), ArrayU::splat(ray.instance));
-        let surface = surface(scene, origin, direction, One::splat(ray.t), primitive, instance, valid);
+        let surface = surface_at(scene, origin, direction, One::splat(ray.t), primitive, instance, valid);
         let lamp = !surface.light.eq(ArrayU::splat(0));
         let bsdf = Bsdf::met(scene, &surface, valid & !lamp, &[ray.behind], 0);
         Vertex { scene, ray, surface, bsdf }
@@ -275,12 +276,12 @@ impl<'s> Vertex<'s> {
 }
 
 /// What light counts that a ray of this density met, where a light sample takes its direction with that one.
-fn met_weight(pdf: f32, sampled: f32) -> f32 {
-    if pdf < 0.0 { 1.0 } else { number(weight_of_ratio(One::splat(sampled) / One::splat(pdf))) }
+fn met_weight(pdf: Option<f32>, sampled: f32) -> f32 {
+    pdf.map_or(1.0, |pdf| number(weight_of_ratio(One::splat(sampled) / One::splat(pdf))))
 }
 
 /// What a ray of this direction and density meets where nothing is.
-pub fn beyond(scene: &Scene, direction: [f32; 3], pdf: f32) -> LightMet {
+pub fn beyond(scene: &Scene, direction: [f32; 3], pdf: Option<f32>) -> LightMet {
     let lights = &scene.tables.lights;
     let Some(environment) = &lights.environment else {
         return LightMet { radiance: scene.background, pdf: 0.0, weight: 1.0 };

@@ -27,9 +27,6 @@ pub struct Rules {
     pub crates: BTreeMap<String, CrateRules>,
     /// Files and folders whose lines are held short.
     pub lines: Held,
-    /// Long functions that wait for somebody to cut them.
-    #[serde(default)]
-    pub long: Vec<Long>,
 }
 
 /// The order of the rooms of a crate.
@@ -65,18 +62,6 @@ pub struct Held {
     pub held: Vec<String>,
 }
 
-/// A function that is too long for the time being.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Long {
-    /// Its file, from the root of the repository.
-    pub file: String,
-    /// Its name.
-    pub function: String,
-    /// What has to be done for it to go.
-    pub why: String,
-}
-
 /// What was found.
 #[derive(Debug, Default)]
 pub struct Findings {
@@ -104,13 +89,11 @@ impl Rules {
 /// When a file cannot be read.
 pub fn examine(root: &Path, rules: &Rules) -> anyhow::Result<Findings> {
     let mut findings = Findings::default();
-    let mut long = Vec::new();
     for (name, of_crate) in &rules.crates {
         let source = Source::read(&root.join(&of_crate.root))?;
         arrows(name, of_crate, root, &source, &mut findings)?;
-        long.extend(long_functions(root, &source));
+        hold_functions(root, &source, &mut findings.faults);
     }
-    hold_functions(&long, &rules.long, &mut findings.faults);
     for held in &rules.lines.held {
         hold_lines(root, &root.join(held), &mut findings.faults)?;
     }
@@ -176,34 +159,16 @@ fn arrows(name: &str, rules: &CrateRules, root: &Path, source: &Source, findings
     Ok(())
 }
 
-/// Functions that are too long and give no reason: file, name, line, lines.
-fn long_functions(root: &Path, source: &Source) -> Vec<(String, String, usize, usize)> {
-    let mut long = Vec::new();
+/// Holds functions short that give no reason to be long.
+fn hold_functions(root: &Path, source: &Source, faults: &mut Vec<String>) {
     for module in source.modules.values() {
-        let file = module.file.strip_prefix(root).unwrap_or(&module.file).display().to_string();
-        let too_long = module.functions.iter().filter(|f| f.lines > LONGEST_FUNCTION && !f.reason);
-        long.extend(too_long.map(|f| (file.clone(), f.name.clone(), f.line, f.lines)));
-    }
-    long
-}
-
-fn hold_functions(found: &[(String, String, usize, usize)], excepted: &[Long], faults: &mut Vec<String>) {
-    let is = |long: &Long, file: &str, name: &str| long.file == file && long.function == name;
-    for (file, name, line, lines) in found {
-        if !excepted.iter().any(|long| is(long, file, name)) {
+        let file = module.file.strip_prefix(root).unwrap_or(&module.file).display();
+        for function in module.functions.iter().filter(|f| f.lines > LONGEST_FUNCTION && !f.reason) {
+            let (name, line, lines) = (&function.name, function.line, function.lines);
             let most = LONGEST_FUNCTION;
             faults.push(format!(
                 "{file}:{line}: {name} has {lines} lines: cut it to {most}, or say above it why not (// Long: ..)"
             ));
-        }
-    }
-    for long in excepted {
-        if long.why.trim().is_empty() {
-            faults.push(format!("{}: {} is excepted without a reason", long.file, long.function));
-        }
-        if !found.iter().any(|(file, name, ..)| is(long, file, name)) {
-            let Long { file, function, .. } = long;
-            faults.push(format!("{file}: {function} is not too long: take it out of {RULES}"));
         }
     }
 }
@@ -309,12 +274,6 @@ mod tests {
                 "c/a.rs:1: f has 81 lines: cut it to 80, or say above it why not (// Long: ..)",
                 "c/b.rs:83: 121 characters, 120 at most",
             ]
-        );
-        let long = "long = [{ file = 'c/a.rs', function = 'f', why = 'x' }, \
-                    { file = 'c/a.rs', function = 'g', why = 'x' }]\n";
-        assert_eq!(
-            faults(&format!("{long}{}", rules.replace("['c']", "[]")), &files),
-            ["c/a.rs: g is not too long: take it out of crates/xtask/layers.toml"]
         );
     }
 }

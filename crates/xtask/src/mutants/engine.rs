@@ -2,11 +2,15 @@
 
 use super::{Mutant, kernel_units, proofs};
 
+const TRIANGLES: &str = "crates/kernels/src/engine/stages/triangles.rs";
+const MIS: &str = "crates/kernels/src/engine/stages/shade/mis.rs";
+const LIGHT_SAMPLE: &str = "crates/kernels/src/engine/stages/shade/light_sample.rs";
+const EMISSION: &str = "crates/kernels/src/engine/stages/shade/emission.rs";
 const BSDF: &str = "crates/kernels/src/engine/stages/materials/mod.rs";
 const BLINN_PHONG: &str = "crates/kernels/src/engine/stages/materials/blinn_phong.rs";
 const CONDUCTOR: &str = "crates/kernels/src/engine/stages/materials/conductor.rs";
 const DIELECTRIC: &str = "crates/kernels/src/engine/stages/materials/dielectric.rs";
-const SURFACE: &str = "crates/kernels/src/engine/stages/surface.rs";
+const SURFACE_AT: &str = "crates/kernels/src/engine/stages/surface_at.rs";
 const LIGHTS: &str = "crates/kernels/src/engine/stages/lights/mod.rs";
 const LIGHT: &str = "crates/kernels/src/scene/light.rs";
 const LIGHT_SELECTION: &str = "crates/kernels/src/engine/stages/lights/selection.rs";
@@ -28,7 +32,7 @@ pub const MUTANTS: &[Mutant] = &[
     // Scattering.
     Mutant {
         name: "cosine-twice",
-        file: SHADE,
+        file: LIGHT_SAMPLE,
         find: "scale(cos_i * l.inverse_pdf",
         replace: "scale(cos_i * cos_i * l.inverse_pdf",
         caught_by: proofs(&["analytic::a_sphere_light_above_and_partly_below_the_horizon"]),
@@ -127,13 +131,13 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "roulette-without-one-over-q",
         file: SHADE,
-        find: "carried = carried.scale(one / F::select(zero.lt(survival), survival, one));",
-        replace: "carried = carried.scale(one);",
+        find: "onward.carried = onward.carried.scale(one / F::select(zero.lt(survival), survival, one));",
+        replace: "onward.carried = onward.carried.scale(one);",
         caught_by: proofs(&["analytic::a_lambertian_furnace_is_one_over_one_minus_albedo"]),
     },
     Mutant {
         name: "mis-by-the-balance-heuristic-one-sided",
-        file: SHADE,
+        file: MIS,
         find: "F::splat(1.0) / ratio.fma(ratio, F::splat(1.0))",
         replace: "F::splat(1.0) / ratio.fma(ratio, F::splat(0.5))",
         caught_by: kernel_units(&["engine::stages::shade"]),
@@ -177,56 +181,56 @@ pub const MUTANTS: &[Mutant] = &[
     // Surfaces.
     Mutant {
         name: "sphere-normal-flipped",
-        file: SURFACE,
+        file: SURFACE_AT,
         find: "V3::select(outside, outward, outward.neg())",
         replace: "V3::select(outside, outward.neg(), outward)",
         caught_by: proofs(&["analytic::a_diffuse_ball_in_a_white_furnace", "figures::figure_6"]),
     },
     Mutant {
         name: "smooth-normal-flipped",
-        file: SURFACE,
+        file: TRIANGLES,
         find: "let facing = V3::select(turned, unit.neg(), unit);",
         replace: "let facing = V3::select(turned, unit, unit.neg());",
         caught_by: proofs(&["figures::figure_5"]),
     },
     Mutant {
         name: "barycentrics-swapped",
-        file: SURFACE,
+        file: TRIANGLES,
         find: "[b0 * rescale, b1 * rescale, b2 * rescale]",
         replace: "[b0 * rescale, b2 * rescale, b1 * rescale]",
         caught_by: proofs(&["textures", "seams"]),
     },
     Mutant {
         name: "instance-normal-by-the-matrix",
-        file: SURFACE,
+        file: TRIANGLES,
         find: "V3(b.cross(c).dot(n), c.cross(a).dot(n), a.cross(b).dot(n))",
         replace: "V3(a.dot(n), b.dot(n), c.dot(n))",
         caught_by: proofs(&["random_scenes"]),
     },
     Mutant {
         name: "mirrored-instance-inside-out",
-        file: SURFACE,
-        find: "mirrored = transformed & placement.determinant().lt(zero);",
-        replace: "mirrored = transformed & placement.determinant().lt(-c(f32::INFINITY));",
+        file: TRIANGLES,
+        find: "mirrored = self.transformed & self.placement.determinant().lt(F::splat(0.0));",
+        replace: "mirrored = self.transformed & self.placement.determinant().lt(F::splat(-f32::INFINITY));",
         caught_by: proofs(&["random_scenes"]),
     },
     Mutant {
         name: "shading-starts-on-the-triangle",
-        file: SURFACE,
-        find: "start = V3::select(smooth, moved, p);",
-        replace: "start = V3::select(smooth, p, p);",
+        file: TRIANGLES,
+        find: "smooth.start = V3::select(lanes, moved, p);",
+        replace: "smooth.start = V3::select(lanes, p, p);",
         caught_by: proofs(&["surfaces::the_terminator_of_a_low_poly_ball_is_smooth"]),
     },
     Mutant {
         name: "no-offset-from-meshes",
-        file: SURFACE,
+        file: TRIANGLES,
         find: "let start = ng.mad(offset, start);",
         replace: "let start = ng.mad(zero, start);",
         caught_by: proofs(&["seams", "figures::figure_2", "analytic::n_bounces"]),
     },
     Mutant {
         name: "longitude-half-a-turn-off",
-        file: SURFACE,
+        file: SURFACE_AT,
         find: "(turns + c(0.5), acos",
         replace: "(turns, acos",
         caught_by: proofs(&["random_scenes", "textures"]),
@@ -311,9 +315,9 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "lights-met-as-if-from-the-other-side",
-        file: SHADE,
-        find: "Receiver { p: origin, n: normal }",
-        replace: "Receiver { p: origin, n: normal.neg() }",
+        file: EMISSION,
+        find: "Receiver { p: ray.origin, n: normal }",
+        replace: "Receiver { p: ray.origin, n: normal.neg() }",
         caught_by: proofs(&["analytic::several_lamps"]),
     },
     // Flat lights.

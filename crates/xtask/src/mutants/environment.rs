@@ -45,9 +45,9 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "environment-counts-twice",
-        file: "crates/kernels/src/engine/stages/shade.rs",
-        find: "seen = throughput.mul(radiance).scale(shown * weight);",
-        replace: "seen = throughput.mul(radiance).scale(shown * (weight * c(0.5) + c(0.5)));",
+        file: "crates/kernels/src/engine/stages/shade/emission.rs",
+        find: "light = ray.throughput.mul(radiance).scale(shown * weight);",
+        replace: "light = ray.throughput.mul(radiance).scale(shown * (weight * F::splat(0.5) + F::splat(0.5)));",
         caught_by: proofs(&["environment::a_picture_of_one_colour_is_a_background_of_that_colour"]),
     },
 ];

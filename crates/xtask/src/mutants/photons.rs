@@ -2,9 +2,12 @@
 
 use super::{Mutant, kernel_units, proofs};
 
+const VERTEX: &str = "crates/kernels/src/engine/stages/shade/vertex.rs";
+const SHARING: &str = "crates/kernels/src/engine/stages/shade/sharing.rs";
+const SCATTER: &str = "crates/kernels/src/engine/stages/shade/scatter.rs";
+const EMISSION: &str = "crates/kernels/src/engine/stages/shade/emission.rs";
 const PHOTONS: &str = "crates/kernels/src/engine/stages/photons.rs";
 const AIM: &str = "crates/kernels/src/engine/stages/aim.rs";
-const SHADE: &str = "crates/kernels/src/engine/stages/shade.rs";
 const GLINTS: &str = "crates/tracer-core/src/engine/techniques/glints.rs";
 const BATCH: &str = "crates/kernels/src/engine/batch.rs";
 const REUSE: &str = "crates/tracer-core/src/engine/techniques/reuse.rs";
@@ -16,7 +19,7 @@ const PLAN: &str = "crates/kernels/src/engine/guide/plan.rs";
 pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "both-ways-at-glass-with-all-the-light",
-        file: SHADE,
+        file: SCATTER,
         find: "share = F::select(both, one - fainter, one);",
         replace: "share = one;",
         caught_by: proofs(&["analytic::"]),
@@ -38,16 +41,16 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "chains-through-matt-surfaces",
-        file: SHADE,
-        find: "surfaces = surfaces & bsdf.specular();",
+        file: VERTEX,
+        find: "self.surfaces = self.surfaces & self.bsdf.specular();",
         replace: "",
         caught_by: proofs(&["glints"]),
     },
     // Rays aimed at casters.
     Mutant {
         name: "aimed-rays-that-bring-anything",
-        file: SHADE,
-        find: "surfaces = surfaces & !(aimed & bsdf.diffuse);",
+        file: SHARING,
+        find: "at.surfaces = at.surfaces & !(aimed & at.bsdf.diffuse);",
         replace: "",
         caught_by: proofs(&["aimed"]),
     },
@@ -110,15 +113,15 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "own-rays-count-in-full-beside-aimed-ones",
-        file: SHADE,
-        find: "eta2 = F::select(both_find, eta2 * weight, eta2);",
+        file: SHARING,
+        find: "ray.eta2 = F::select(both_find, ray.eta2 * weight, ray.eta2);",
         replace: "let _ = weight;",
         caught_by: proofs(&["aimed"]),
     },
     // Light paths.
     Mutant {
         name: "light-paths-beside-paths-in-full",
-        file: SHADE,
+        file: EMISSION,
         find: "weight = F::select(found, one / (one + by_light), weight);",
         replace: "",
         caught_by: proofs(&["caustics::on_any_film"]),

@@ -2,7 +2,8 @@
 
 use super::{Mutant, kernel_units, proofs, suite, units};
 
-const COMPILE: &str = "crates/tracer-core/src/compile/mod.rs";
+const PREPARED: &str = "crates/tracer-core/src/compile/prepared.rs";
+const SHAPED: &str = "crates/tracer-core/src/compile/shaped.rs";
 const COMPILE_CAMERA: &str = "crates/tracer-core/src/compile/camera.rs";
 const CAMERA_WORDS: &str = "crates/scene-format/src/desc/camera.rs";
 const MESHES: &str = "crates/tracer-core/src/compile/meshes.rs";
@@ -86,14 +87,14 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "one-bounce-too-many",
-        file: COMPILE,
+        file: PREPARED,
         find: "max_bounces: desc.render.max_bounces.value,",
         replace: "max_bounces: desc.render.max_bounces.value + 1,",
         caught_by: proofs(&["analytic::n_bounces_are_the_partial_sum_of_a_series"]),
     },
     Mutant {
         name: "photons-in-the-plain-path-tracer",
-        file: COMPILE,
+        file: PREPARED,
         find: "caustics: full && desc.render",
         replace: "caustics: desc.render",
         caught_by: proofs(&["same_bytes::integrators"]),
@@ -142,7 +143,7 @@ pub const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         name: "light-of-the-neighbour",
-        file: COMPILE,
+        file: SHAPED,
         find: "*index = k as u32;",
         replace: "*index = (k as u32).saturating_sub(1);",
         caught_by: proofs(&["figures::figure_6"]),

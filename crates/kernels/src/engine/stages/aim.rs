@@ -206,6 +206,37 @@ fn leave_by_chance<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut 
     aimers.len = left;
 }
 
+/// The last cone with any weight that begins at or below the threshold, and which it is; of a cell's weights and of the
+/// casters' each counts by its scale.
+#[inline(always)]
+fn choose<F: Lanes>(cones: &[(Cone<F>, F)], scales: [F; 2], threshold: F, n: V3<F>) -> (Cone<F>, F::U) {
+    let zero = F::splat(0.0);
+    let mut below = zero;
+    let mut taken = Cone { axis: n, width: zero, highest: zero };
+    let mut which = F::U::splat(0);
+    for (k, &(cone, weight)) in cones.iter().enumerate() {
+        let takes = zero.lt(weight) & below.le(threshold);
+        taken.axis = V3::select(takes, cone.axis, taken.axis);
+        taken.width = F::select(takes, cone.width, taken.width);
+        which = F::U::select(takes, F::U::splat(k as u32), which);
+        below = below + weight * scales[usize::from(k >= SPHERES)];
+    }
+    (taken, which)
+}
+
+/// The sum of the weights over the widths of the cones that hold a direction: the one that was taken holds it whatever
+/// rounding says.
+#[inline(always)]
+fn within<F: Lanes>(cones: &[(Cone<F>, F)], scales: [F; 2], taken: F::U, wi: V3<F>) -> F {
+    let zero = F::splat(0.0);
+    let mut sum = zero;
+    for (k, &(cone, weight)) in cones.iter().enumerate() {
+        let holds = cone.holds(wi) | taken.eq(F::U::splat(k as u32));
+        sum = sum + F::select(holds, weight * scales[usize::from(k >= SPHERES)] / cone.width, zero);
+    }
+    sum
+}
+
 /// Adds rays aimed from `batch.aimers` to `batch.paths`.
 #[inline(always)]
 pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
@@ -235,18 +266,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         let cones = &cones[..SPHERES + casters];
         let (of_cell, of_casters) = shares(sums[0], sums[1]);
         let scales = [over(of_cell, sums[0]), over(of_casters, sums[1])];
-        // The last with any weight that begins at or below this.
-        let threshold = choice / targets.chance * (of_cell + of_casters);
-        let mut below = zero;
-        let mut taken = Cone { axis: n, width: zero, highest: zero };
-        let mut which = F::U::splat(0);
-        for (k, &(cone, weight)) in cones.iter().enumerate() {
-            let takes = zero.lt(weight) & below.le(threshold);
-            taken.axis = V3::select(takes, cone.axis, taken.axis);
-            taken.width = F::select(takes, cone.width, taken.width);
-            which = F::U::select(takes, F::U::splat(k as u32), which);
-            below = below + weight * scales[usize::from(k >= SPHERES)];
-        }
+        let (taken, which) = choose(cones, scales, choice / targets.chance * (of_cell + of_casters), n);
         let (u, v) = directions.points(&pixel);
         let wi = taken.axis.to_world(crate::sampling::warp::cone(u, v, taken.width));
         let cos = n.dot(wi);
@@ -254,14 +274,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         if !aimed.any() {
             continue;
         }
-        // The density with which it was aimed: its own cone holds it whatever rounding says.
-        let mut density = zero;
-        for (k, &(cone, weight)) in cones.iter().enumerate() {
-            let holds = cone.holds(wi) | which.eq(F::U::splat(k as u32));
-            let scale = scales[usize::from(k >= SPHERES)];
-            density = density + F::select(holds, weight * scale / cone.width, zero);
-        }
-        density = density * targets.chance * c(1.0 / TWO_PI);
+        let density = within(cones, scales, which, wi) * targets.chance * c(1.0 / TWO_PI);
         let bsdf = bsdf_of::<F>(aimers, i, aimed);
         let (f, by_itself) = bsdf.evaluate(n, V3::load(&aimers.wo, i), wi, cos);
         // What the own ray carried along this direction, and the weight apart, which roulette must not see: both ways
@@ -278,13 +291,13 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         let sum = slot & F::U::splat(path::SUM);
         let shared = !(slot & F::U::splat(path::SHARED)).eq(F::U::splat(0));
         let late = if vertex < BRANCHING { 0 } else { LATE_AIMS * path::LATE };
-        let state = F::U::select(shared, sum, sum | F::U::splat(path::OWN)) | F::U::splat(path::AIMED | late);
+        let state =
+            F::U::select(shared, sum, sum | F::U::splat(path::OWN)) | F::U::splat(path::AIMED | path::SPECULAR | late);
         let k = paths.len;
         p.compress(aimed, &mut paths.origin, k);
         wi.compress(aimed, &mut paths.direction, k);
         throughput.compress(aimed, &mut paths.throughput, k);
         (F::load(&aimers.survival[i..]) * weight).compress(aimed, &mut paths.eta2[k..]);
-        c(-1.0).compress(aimed, &mut paths.pdf[k..]);
         (F::load(&aimers.film[i..]) * cos / (by_itself + density)).compress(aimed, &mut paths.film[k..]);
         n.compress(aimed, &mut paths.normal, k);
         state.compress(aimed, &mut paths.slot[k..]);

@@ -3,7 +3,7 @@
 
 use super::points::{PairPoints, PixelOf};
 use super::shade::leaves;
-use super::surface::surface;
+use super::surface_at::surface_at;
 use crate::engine::batch::{Batch, path};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
@@ -30,7 +30,7 @@ pub fn ambient<F: Lanes>(scene: &Scene, seed: u32, distance: f32, batch: &mut Ba
         let origin = V3::<F>::load(&paths.origin, i);
         let direction = V3::<F>::load(&paths.direction, i);
         let instance = F::U::load(&batch.hits.instance[i..]);
-        let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
+        let s = surface_at(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
         let slot = F::U::load(&paths.slot[i..]) & F::U::splat(path::SLOT);
         let (u, v) = directions.points(&PixelOf::<F>::new(slot, &batch.pixels));
         let wi = s.ns.to_world(warp::cosine_hemisphere(u, v));

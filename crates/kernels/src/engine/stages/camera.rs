@@ -2,7 +2,7 @@
 
 use super::cameras::View;
 use super::points::{PairPoints, PixelOf};
-use crate::engine::batch::Batch;
+use crate::engine::batch::{Batch, path};
 use crate::lanes::{ArrayF, Bits, Lanes, Mask};
 use crate::math::{V3, exp, ln, sincos_turns};
 use crate::sampling::blocks::ITEM_PIXELS;
@@ -47,9 +47,8 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
             ray.direction.normalise().store(&mut paths.direction, i);
             V3::grey(c(1.0)).store(&mut paths.throughput, i);
             c(1.0).store(&mut paths.eta2[i..]);
-            c(-1.0).store(&mut paths.pdf[i..]);
             (inverse_density::<F>(camera.filter, dx, dy) * ray.measure).store(&mut paths.film[i..]);
-            slot.store(&mut paths.slot[i..]);
+            (slot | F::U::splat(path::SPECULAR)).store(&mut paths.slot[i..]);
             F::U::splat(NONE).store(&mut paths.from_primitive[i..]);
             F::U::splat(NONE).store(&mut paths.from_instance[i..]);
             let count = inside.count();

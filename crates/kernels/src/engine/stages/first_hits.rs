@@ -3,7 +3,7 @@
 
 use super::camera::filter_offset;
 use super::points::{PairPoints, PixelOf};
-use super::surface::surface_and_uv;
+use super::surface_at::surface_and_uv_at;
 use crate::engine::batch::{Batch, path};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::layers::{Definition, FirstHit, LayerSet, Pixel, at, definition};
@@ -31,7 +31,7 @@ pub fn first_hits<F: Lanes>(scene: &Scene, seed: u32, layers: LayerSet, batch: &
         let direction = V3::<F>::load(&paths.direction, i);
         let t = F::load(&hits.t[i..]);
         let instance = F::U::load(&hits.instance[i..]);
-        let s = surface_and_uv(scene, origin, direction, t, primitive, instance, valid, wants_uv);
+        let s = surface_and_uv_at(scene, origin, direction, t, primitive, instance, valid, wants_uv);
         let hit = FirstHit { scene, valid, direction, t, surface: &s };
         let bits = valid.bits();
         let slots = &paths.slot[i..i + count];

@@ -28,8 +28,9 @@ use super::cameras::View;
 use super::lights::curved;
 use super::materials::{Bsdf, TWO_PI, reflect_bent};
 use super::photons::Numbers;
-use super::surface::{Surface, surface};
-use crate::engine::batch::Batch;
+use super::surface::Surface;
+use super::surface_at::surface_at;
+use crate::engine::batch::{Batch, Shadows, Splats};
 use crate::engine::guide::Guide;
 use crate::engine::guide::plan::{Plan, aim as way};
 use crate::engine::light_paths::LightPaths;
@@ -198,6 +199,78 @@ pub struct LightPass<'a> {
     pub guide: &'a Guide,
 }
 
+/// Light paths where they have come to a surface.
+struct Arrival<'s, 't, F: Lanes> {
+    s: &'s Surface<F>,
+    bsdf: &'s Bsdf<'t, F>,
+    /// Towards where they came from.
+    back: V3<F>,
+    /// What they carry, without the radiance scaling of glass.
+    carried: V3<F>,
+    /// rho / cos_q  K.
+    density: F,
+    /// The radiance scaling of glass.
+    eta2: F,
+    primitive: F::U,
+    instance: F::U,
+}
+
+/// Ends light paths at rough surfaces that the camera may see, from the point of its lens for (u, v): what they bring
+/// to the film, and the shadow rays to the lens.
+#[inline(always)]
+fn to_camera<F: Lanes>(
+    view: &View<F>,
+    pass: LightPass<'_>,
+    at: &Arrival<'_, '_, F>,
+    lens: (F, F),
+    shadows: &mut Shadows,
+    splats: &mut Splats,
+) {
+    let (c, zero) = (F::splat, F::splat(0.0));
+    let Arrival { s, bsdf, back, .. } = *at;
+    let rough = bsdf.packs() & !s.smooth;
+    if !rough.any() {
+        return;
+    }
+    let place = view.place(s.start, lens);
+    let wo = place.wo;
+    let (cos_eye, cos_y) = (s.ng.dot(wo), s.ng.dot(back));
+    let margin = c(pass.light_paths.reach);
+    let (right, bottom) = (c(2.0 * view.middle[0]), c(2.0 * view.middle[1]));
+    let falls = rough
+        & place.seen
+        & zero.lt(cos_eye)
+        & zero.lt(cos_y)
+        & (-margin).lt(place.x)
+        & place.x.lt(right + margin)
+        & (-margin).lt(place.y)
+        & place.y.lt(bottom + margin);
+    if !falls.any() {
+        return;
+    }
+    let (f, own) = bsdf.evaluate(s.ns, wo, back, cos_y);
+    let aimed = aim::density(pass.guide, s.start, s.ns, back, falls);
+    let seen = view.area(place.distance, place.cos, cos_eye) * place.measure;
+    let brings = f.mul(at.carried).scale(cos_y * at.eta2);
+    let falls = falls & zero.lt(brings.max_component());
+    let k = splats.len;
+    brings.compress(falls, &mut splats.brings, k);
+    (own + aimed).compress(falls, &mut splats.by_paths[k..]);
+    (at.density * cos_y * seen).compress(falls, &mut splats.by_light[k..]);
+    place.x.compress(falls, &mut splats.x[k..]);
+    place.y.compress(falls, &mut splats.y[k..]);
+    splats.len += falls.count();
+    let k = shadows.len;
+    s.start.compress(falls, &mut shadows.origin, k);
+    wo.compress(falls, &mut shadows.direction, k);
+    place.free.compress(falls, &mut shadows.t_max[k..]);
+    at.primitive.compress(falls, &mut shadows.from_primitive[k..]);
+    at.instance.compress(falls, &mut shadows.from_instance[k..]);
+    F::U::splat(NONE).compress(falls, &mut shadows.target_primitive[k..]);
+    F::U::splat(NONE).compress(falls, &mut shadows.target_instance[k..]);
+    shadows.len += falls.count();
+}
+
 /// What becomes of the light paths in `batch.paths` where they hit, after `event` mirrors and glass: over these they go
 /// on; at rough surfaces behind them they end, and what they bring to the film is in `batch.splats`, with a shadow ray
 /// to the lens each in `batch.shadows`.
@@ -232,51 +305,15 @@ pub fn light_paths<F: Lanes>(scene: &Scene, pass: LightPass<'_>, event: u32, bat
             continue;
         }
         let origin = V3::<F>::load(&paths.origin, i);
-        let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
+        let s = surface_at(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
         let surfaces = hit & s.light.eq(F::U::splat(0));
         let bsdf = Bsdf::<'_, F>::met(scene, &s, surfaces, &batch.hits.behind[..], i);
         let back = direction.neg();
         let numbers =
             Numbers::<F> { index: F::U::gather(&photons.index[..], slot), key: F::U::gather(&plan.pairs.key, pair) };
-        let rough = bsdf.packs() & !s.smooth;
-        if event > 0 && rough.any() {
-            let (u, v) = numbers.pair(lens_salt);
-            let place = view.place(s.start, (u, v));
-            let wo = place.wo;
-            let (cos_eye, cos_y) = (s.ng.dot(wo), s.ng.dot(back));
-            let margin = c(pass.light_paths.reach);
-            let (right, bottom) = (c(2.0 * view.middle[0]), c(2.0 * view.middle[1]));
-            let falls = rough
-                & place.seen
-                & zero.lt(cos_eye)
-                & zero.lt(cos_y)
-                & (-margin).lt(place.x)
-                & place.x.lt(right + margin)
-                & (-margin).lt(place.y)
-                & place.y.lt(bottom + margin);
-            if falls.any() {
-                let (f, own) = bsdf.evaluate(s.ns, wo, back, cos_y);
-                let aimed = aim::density(pass.guide, s.start, s.ns, back, falls);
-                let seen = view.area(place.distance, place.cos, cos_eye) * place.measure;
-                let brings = f.mul(carried).scale(cos_y * eta2);
-                let falls = falls & zero.lt(brings.max_component());
-                let k = splats.len;
-                brings.compress(falls, &mut splats.brings, k);
-                (own + aimed).compress(falls, &mut splats.by_paths[k..]);
-                (density * cos_y * seen).compress(falls, &mut splats.by_light[k..]);
-                place.x.compress(falls, &mut splats.x[k..]);
-                place.y.compress(falls, &mut splats.y[k..]);
-                let k = shadows.len;
-                s.start.compress(falls, &mut shadows.origin, k);
-                wo.compress(falls, &mut shadows.direction, k);
-                place.free.compress(falls, &mut shadows.t_max[k..]);
-                primitive.compress(falls, &mut shadows.from_primitive[k..]);
-                instance.compress(falls, &mut shadows.from_instance[k..]);
-                F::U::splat(NONE).compress(falls, &mut shadows.target_primitive[k..]);
-                F::U::splat(NONE).compress(falls, &mut shadows.target_instance[k..]);
-                shadows.len += falls.count();
-                splats.len += falls.count();
-            }
+        if event > 0 {
+            let at = Arrival { s: &s, bsdf: &bsdf, back, carried, density, eta2, primitive, instance };
+            to_camera(&view, pass, &at, numbers.pair(lens_salt), shadows, splats);
         }
         let passes = bsdf.specular();
         if !goes_on || !passes.any() {

@@ -21,4 +21,6 @@ pub mod shapes;
 pub mod share;
 pub mod spheres;
 pub mod surface;
+pub mod surface_at;
 pub mod textures;
+pub mod triangles;

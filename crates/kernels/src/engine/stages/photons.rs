@@ -3,7 +3,7 @@
 use super::lights::{curved, share_towards};
 use super::materials::{Bsdf, reflect_bent};
 use super::shade::leaves;
-use super::surface::surface;
+use super::surface_at::surface_at;
 use crate::engine::batch::Batch;
 use crate::engine::guide::plan::{Plan, aim};
 use crate::engine::pass::PhotonPass;
@@ -171,7 +171,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         if !hit.any() {
             continue;
         }
-        let s = surface(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
+        let s = surface_at(scene, origin, direction, F::load(&batch.hits.t[i..]), primitive, instance, hit);
         let surfaces = hit & s.light.eq(F::U::splat(0));
         let bsdf = Bsdf::<'_, F>::met(scene, &s, surfaces, &batch.hits.behind[..], i);
         let wo = direction.neg();

@@ -21,9 +21,9 @@
 use super::fan::Fan;
 use super::materials::{Bsdf, Packed};
 use super::reach::Slabs;
+use super::shade::Vertex;
 use super::shaft::{Ends, Left, Obstacles, Shaft};
 use super::spheres::{Ray, large_blocks, small_blocks};
-use super::surface::Surface;
 use crate::bvh::SecondBoxes;
 use crate::engine::batch::{Batch, Columns, Group, Members, PATHS, RAISED, Shadows, Suffixes, path};
 use crate::lanes::{Bits, Lanes, Mask};
@@ -44,19 +44,8 @@ const MOST_BOXES: u32 = 6;
 
 /// Adds the lanes of the mask to the members.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
-pub fn add_members<F: Lanes>(
-    members: &mut Members,
-    bsdf: &Bsdf<'_, F>,
-    s: &Surface<F>,
-    wo: V3<F>,
-    weight: V3<F>,
-    survival: F,
-    slot: F::U,
-    primitive: F::U,
-    instance: F::U,
-    mask: F::M,
-) {
+pub fn add_members<F: Lanes>(members: &mut Members, at: &Vertex<'_, F>, weight: V3<F>, survival: F, mask: F::M) {
+    let Vertex { ray, s, bsdf, wo, .. } = at;
     let raised = s.smooth & !s.start.sub(s.p).dot(s.ng).le(s.offset);
     let Packed { kind, numbers } = bsdf.pack();
     let k = members.len;
@@ -69,9 +58,9 @@ pub fn add_members<F: Lanes>(
     numbers[1].compress(mask, &mut members.numbers[1][k..]);
     survival.compress(mask, &mut members.survival[k..]);
     F::U::select(raised, kind | F::U::splat(RAISED), kind).compress(mask, &mut members.kind[k..]);
-    slot.compress(mask, &mut members.slot[k..]);
-    primitive.compress(mask, &mut members.primitive[k..]);
-    instance.compress(mask, &mut members.instance[k..]);
+    ray.slot.compress(mask, &mut members.slot[k..]);
+    ray.primitive.compress(mask, &mut members.primitive[k..]);
+    ray.instance.compress(mask, &mut members.instance[k..]);
     members.len += mask.count();
 }
 
@@ -85,20 +74,14 @@ pub fn bsdf_of<F: Lanes>(members: &Members, i: usize, lanes: F::M) -> Bsdf<'stat
 
 /// Adds the lanes of the mask to the suffixes.
 #[inline(always)]
-pub fn add_suffixes<F: Lanes>(
-    suffixes: &mut Suffixes,
-    s: &Surface<F>,
-    slot: F::U,
-    primitive: F::U,
-    instance: F::U,
-    mask: F::M,
-) {
+pub fn add_suffixes<F: Lanes>(suffixes: &mut Suffixes, at: &Vertex<'_, F>, mask: F::M) {
+    let Vertex { ray, s, .. } = at;
     let k = suffixes.len;
     s.ng.mad(s.offset, s.p).compress(mask, &mut suffixes.point, k);
     s.ng.compress(mask, &mut suffixes.normal, k);
-    (slot & F::U::splat(path::SLOT)).compress(mask, &mut suffixes.slot[k..]);
-    primitive.compress(mask, &mut suffixes.primitive[k..]);
-    instance.compress(mask, &mut suffixes.instance[k..]);
+    (ray.slot & F::U::splat(path::SLOT)).compress(mask, &mut suffixes.slot[k..]);
+    ray.primitive.compress(mask, &mut suffixes.primitive[k..]);
+    ray.instance.compress(mask, &mut suffixes.instance[k..]);
     suffixes.len += mask.count();
 }
 

@@ -43,6 +43,11 @@ fn set(columns: &mut Columns, value: [f32; 3]) {
 }
 
 impl Row {
+    /// Density of the ray's direction; `None` where lights are found by such rays only.
+    fn density(&self) -> Option<f32> {
+        (self.slot & path::SPECULAR == 0).then_some(self.pdf)
+    }
+
     fn read(paths: &Paths, i: usize) -> Self {
         Row {
             origin: column(&paths.origin, i),
@@ -175,7 +180,7 @@ impl Follower<'_> {
             origin: row.origin,
             direction: row.direction,
             normal: row.normal,
-            pdf: row.pdf,
+            pdf: row.density(),
             t: batch.hits.t[0],
             primitive: batch.hits.primitive[0],
             instance: batch.hits.instance[0],
@@ -208,7 +213,7 @@ impl Follower<'_> {
             origin: Told::place(scene, row.origin),
             direction: row.direction.map(f64::from),
             throughput: row.throughput.map(|x| f64::from(x) * f64::from(row.eta2)),
-            pdf: (row.pdf >= 0.0).then(|| f64::from(row.pdf)),
+            pdf: row.density().map(f64::from),
             told: vertex.as_ref().zip(hit).map(|(vertex, hit)| told(scene, vertex, &hit)),
             met: self.met(row, vertex.as_ref(), met, depth),
             sampled,
@@ -242,12 +247,12 @@ impl Follower<'_> {
         let met = match vertex {
             Some(vertex) => vertex.met()?,
             None if !scene.is_open() || hidden() => return None,
-            None => beyond(scene, row.direction, row.pdf),
+            None => beyond(scene, row.direction, row.density()),
         };
         let unit = scene.radiance_unit;
         Some(MetTold {
             radiance: met.radiance.map(|x| f64::from(x) * unit),
-            light_pdf: (row.pdf >= 0.0 && met.pdf > 0.0).then(|| f64::from(met.pdf)),
+            light_pdf: (row.density().is_some() && met.pdf > 0.0).then(|| f64::from(met.pdf)),
             weight: f64::from(met.weight),
             brings: brings.map(|x| f64::from(x) * unit),
         })
@@ -310,7 +315,7 @@ impl Follower<'_> {
                 SampledLobe::Glass => "reflection",
             },
             direction: after.direction.map(f64::from),
-            pdf: (after.pdf >= 0.0).then(|| f64::from(after.pdf)),
+            pdf: after.density().map(f64::from),
             weight: of_color.map(|x| f64::from(x) * f64::from(after.eta2) / f64::from(row.eta2)),
             roulette,
         })

@@ -9,7 +9,8 @@
 
 use super::super::materials::Texel;
 use super::super::patterns::At;
-use super::super::surface::{Surface, surface};
+use super::super::surface::Surface;
+use super::super::surface_at::surface_at;
 use super::{covered, flat_row};
 use crate::lanes::{Bits, Lanes, Mask, Part};
 use crate::math::V3;
@@ -92,7 +93,7 @@ impl<F: Lanes> Part<F> for Towards<'_, F> {
         }
         let mut found = one;
         if has_texture.any() {
-            let s = surface(scene, origin, direction, distance, primitive, instance, has_texture);
+            let s = surface_at(scene, origin, direction, distance, primitive, instance, has_texture);
             found = share(scene, number, At::of(&s), s.ns, has_texture);
         }
         if is_covered.any() {

@@ -37,10 +37,27 @@ pub struct Conductor<F: Lanes> {
     scale: F,
 }
 
-impl<F: Lanes> Conductor<F> {
-    /// Conductor `index` of the table with this width and these colours; the second counts where it is not below zero.
+/// A tint that textures give.
+#[derive(Clone, Copy)]
+pub struct Tint<F: Lanes> {
+    /// The tint.
+    pub color: V3<F>,
+    /// Lanes that have one; others have their metal's.
+    pub lanes: F::M,
+}
+
+impl<F: Lanes> Tint<F> {
+    /// No lane has one.
     #[inline(always)]
-    pub fn new(table: &ConductorTable, index: F::U, alpha: F, color: V3<F>, tint: V3<F>) -> Self {
+    pub fn none() -> Self {
+        Tint { color: V3::zero(), lanes: F::M::from_bits(0) }
+    }
+}
+
+impl<F: Lanes> Conductor<F> {
+    /// Conductor `index` of the table with this width and these colours.
+    #[inline(always)]
+    pub fn new(table: &ConductorTable, index: F::U, alpha: F, color: V3<F>, tint: Tint<F>) -> Self {
         let zero = F::splat(0.0);
         let (mut index, mut next, mut between) = (index, index, zero);
         if !table.several.is_empty() {
@@ -52,7 +69,6 @@ impl<F: Lanes> Conductor<F> {
             next = F::U::select(several, index + F::U::splat(1), index);
         }
         let [_, exact, n0, n1, n2, k0, k1, k2, f0, f1, f2, energy, scale] = table.rows.row::<F>(index);
-        let tinted = zero.le(tint.0);
         let steps = F::U::splat(GGX_STEPS as u32);
         let mut conductor = Conductor {
             losses: index * steps,
@@ -61,7 +77,7 @@ impl<F: Lanes> Conductor<F> {
             alpha,
             exact: F::splat(0.5).lt(exact),
             color,
-            n: V3::select(tinted, tint, V3(n0, n1, n2)),
+            n: V3::select(tint.lanes, tint.color, V3(n0, n1, n2)),
             k: V3(k0, k1, k2),
             average: V3(f0, f1, f2),
             energy,

@@ -35,7 +35,7 @@ use crate::math::V3;
 use crate::sampling::warp;
 use crate::scene::{ConductorTable, LEAST_EXPONENT, Lobe, MaterialTable, NARROWEST_ALPHA, Scene};
 use blinn_phong::BlinnPhong;
-use conductor::Conductor;
+use conductor::{Conductor, Tint};
 use std::f32::consts::{FRAC_1_PI, PI};
 pub(super) use varying::Texel;
 use varying::{Numbers, Varying, texel};
@@ -57,8 +57,8 @@ pub struct Bsdf<'t, F: Lanes> {
     parameter: F,
     /// Of Blinn-Phong s, of metals the place in their table.
     share: F,
-    /// Of metals the tint that a texture gives; below zero where none does.
-    tint: V3<F>,
+    /// Of metals the tint that a texture gives.
+    tint: Tint<F>,
     /// Blinn-Phong, both kinds.
     blinn_phong: F::M,
     /// Blinn-Phong with the energy-conserving lobe.
@@ -111,7 +111,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
             transparent,
             parameter,
             share,
-            tint: V3::grey(F::splat(-1.0)),
+            tint: Tint::none(),
             blinn_phong,
             conserving,
             metal,
@@ -393,7 +393,7 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
             transparent: none,
             parameter,
             share,
-            tint: V3::grey(F::splat(-1.0)),
+            tint: Tint::none(),
             blinn_phong: glossy,
             conserving: glossy & kind.eq(F::U::splat(packed::CONSERVING)),
             metal: none,

@@ -1,6 +1,7 @@
 //! What textures say of a material beside its colour: how wide its lobes are, what share they have, another colour.
 //! Calls, since only scenes that have such pay for them.
 
+use super::conductor::Tint;
 use crate::engine::stages::patterns::{At, luminance, pattern_color};
 use crate::engine::stages::textures::texture_color;
 use crate::lanes::{Bits, Lanes, Mask, Part};
@@ -76,7 +77,7 @@ pub(super) struct Varying<'t, F: Lanes> {
 pub(super) struct Numbers<F: Lanes> {
     pub parameter: F,
     pub share: F,
-    pub tint: V3<F>,
+    pub tint: Tint<F>,
     /// Metals that are smooth here.
     pub specular: F::M,
 }
@@ -107,7 +108,7 @@ impl<F: Lanes> Part<F> for Varying<'_, F> {
         if on.any() {
             let V3(red, green, blue) = F::apart(Texel { scene, number: second, at, normal, mask: on });
             let color = V3(red.max(zero).min(one), green.max(zero).min(one), blue.max(zero).min(one));
-            numbers.tint = V3::select(on, color, numbers.tint);
+            numbers.tint = Tint { color, lanes: on };
         }
         numbers
     }

@@ -1,7 +1,7 @@
 //! The colours of a mesh's vertices, between them by barycentric coordinates.
 
 use super::At;
-use crate::engine::stages::surface::{Placement, gather_indices};
+use crate::engine::stages::triangles::{Placement, gather_indices};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{Coded, Scene, VertexSpace};
