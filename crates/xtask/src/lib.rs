@@ -16,6 +16,7 @@ pub mod mutants;
 pub mod noise;
 pub mod picture;
 pub mod prove;
+pub mod schema;
 pub mod site;
 pub mod sweeps;
 pub mod truth;

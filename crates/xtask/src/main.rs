@@ -68,6 +68,11 @@ enum Command {
         #[arg(long)]
         list: bool,
     },
+    /// Writes the JSON Schema into a folder, and scenes that it must take and refuse (`cargo xtask prove schema`).
+    SchemaCases {
+        /// The folder; what lies in it goes.
+        folder: PathBuf,
+    },
     /// Makes the program as one static file of less than 16 MB (target/static/tracer), which runs on every Linux.
     ///
     /// Some minutes. It is seen to be static and small, and to make expected pictures byte for byte.
@@ -188,6 +193,7 @@ fn main() -> anyhow::Result<()> {
             }
             return Ok(());
         }
+        Command::SchemaCases { folder } => return xtask::schema::run(&root.canonicalize()?, &folder),
         Command::Site => return xtask::site::run(&root.canonicalize()?).map(drop),
         Command::Sweeps { steps, pictures, samples, size, name } => {
             let options = xtask::sweeps::Options { steps, pictures, samples, size, name, only: 0..steps };

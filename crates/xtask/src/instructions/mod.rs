@@ -36,8 +36,8 @@ const GATES: &[Gate] = &[
     // (190 M), a thousand copies 931 M (1196 M). Shafts tell what can be between a suffix and its group, and light
     // paths come from the lights: 190, 386, 203 and 918 M. Blocks are ragged and reach over 31 columns and rows instead
     // of 16: more spheres can be between, a hundred lamps 219 M. Blocks deal their columns and rows by hash instead of
-    // every other one, and the tree always counts: 196, 378, 221 and 901 M. A batch's columns lie on pages of their own,
-    // which nobody fills with zeros: 181, 370, 214 and 894 M.
+    // every other one, and the tree always counts: 196, 378, 221 and 901 M. A batch's columns lie on pages of their
+    // own, which nobody fills with zeros: 181, 370, 214 and 894 M.
     Gate { name: "sharing: balls", most: 186_000_000, run: || picture(&balls(64, 4)) },
     Gate { name: "sharing: hills", most: 380_800_000, run: || picture(&hills(20_000, 64, 4)) },
     Gate { name: "sharing: copies", most: 921_000_000, run: || picture(&copies(1_000, 64, 4)) },
