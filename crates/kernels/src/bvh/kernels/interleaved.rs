@@ -142,17 +142,22 @@ struct Candidate<I: Isa> {
     passage: Passage<I>,
 }
 
+/// The rays under way. They lie where they were made: to move them into this would copy them.
+struct Flights<'a> {
+    rays: &'a mut [Flight; IN_FLIGHT],
+    /// What each of them visits next: apart from the rest of their state, for the look at all of them.
+    next: &'a mut WordLanes,
+}
+
 /// Traces the batch with `IN_FLIGHT` rays under way at a time.
-// Long: a round's steps share the rays under way. Cut into methods of a structure that held these, it copied all of
-// them at every call, a tenth more instructions of scenes of meshes; one that borrows them would do.
 #[inline(always)]
 pub fn trace<I: Isa16, G: Goal>(isa: I, tree: &TreeView, batch: Batch, goal: &mut G, counters: &mut Counters) {
     if batch.active.is_empty() {
         return;
     }
-    let mut flights: [Flight; IN_FLIGHT] = [const { Flight::NOTHING }; IN_FLIGHT];
-    // What each of them visits next: apart from the rest of their state, for the look at all of them.
+    let mut rays = [const { Flight::NOTHING }; IN_FLIGHT];
     let mut next = WordLanes([Ref::END.0; IN_FLIGHT]);
+    let mut flights = Flights { rays: &mut rays, next: &mut next };
     let mut waiting = Waiting::new(batch);
     let mut candidates = [Candidate { flight: 0, reference: 0, mask: 0, passage: Passage::none(isa) }; IN_FLIGHT];
     // Flights that have a ray, or may still get one.
@@ -161,21 +166,46 @@ pub fn trace<I: Isa16, G: Goal>(isa: I, tree: &TreeView, batch: Batch, goal: &mu
     let (mut nodes, mut triangle_leaves) = (0, 0);
     while live != 0 {
         // Nodes are 0…, triangles 10…, everything else 11… (see `Ref`).
-        let (not_nodes, not_triangles) = isa.high_bits16(&next);
-        let mut at_nodes = !not_nodes & 0xFFFF;
+        let (not_nodes, not_triangles) = isa.high_bits16(flights.next);
+        let at_nodes = !not_nodes & 0xFFFF;
         nodes += at_nodes.count_ones();
+        flights.visit_nodes::<I, G>(isa, tree, at_nodes);
+        let at_triangles = not_nodes & !not_triangles;
+        triangle_leaves += at_triangles.count_ones();
+        let passed = flights.pass_triangles::<I, G>(isa, tree, at_triangles, &mut candidates);
+        flights.test_candidates::<I, G>(isa, tree, &candidates[..passed.min(IN_FLIGHT)]);
+        let others = not_nodes & not_triangles & live;
+        live &= !flights.visit_others(isa, tree, goal, counters, &mut waiting, others);
+    }
+    counters.nodes += u64::from(nodes);
+    counters.triangle_leaves += u64::from(triangle_leaves);
+}
+
+/// The steps of a round, each for the rays of a mask. They are a part of [`trace`], with its target features.
+impl Flights<'_> {
+    #[inline(always)]
+    fn visit_nodes<I: Isa, G: Goal>(&mut self, isa: I, tree: &TreeView, mut at_nodes: u32) {
         while at_nodes != 0 {
             let at = first_of(&mut at_nodes);
-            next.0[at] = visit_node::<I, G>(isa, tree, &mut flights[at], next.0[at]);
-            prefetch(tree, next.0[at]);
+            self.next.0[at] = visit_node::<I, G>(isa, tree, &mut self.rays[at], self.next.0[at]);
+            prefetch(tree, self.next.0[at]);
         }
-        let mut at_triangles = not_nodes & !not_triangles;
-        triangle_leaves += at_triangles.count_ones();
+    }
+
+    /// Finds which lines pass through triangles of their leaves; gives the number of these candidates.
+    #[inline(always)]
+    fn pass_triangles<I: Isa, G: Goal>(
+        &mut self,
+        isa: I,
+        tree: &TreeView,
+        mut at_triangles: u32,
+        candidates: &mut [Candidate<I>; IN_FLIGHT],
+    ) -> usize {
         let mut passed = 0;
         while at_triangles != 0 {
             let at = first_of(&mut at_triangles);
-            let flight = &mut flights[at];
-            let reference = next.0[at];
+            let flight = &mut self.rays[at];
+            let reference = self.next.0[at];
             // SAFETY: a reference to a triangle leaf, or one of parts, which begins like it (see `TreeView`).
             let leaf = unsafe { item::<Triangles4>(tree, reference & Ref::UNIT) };
             let mut skip = places_of(isa, &leaf.ids, flight.from);
@@ -187,14 +217,20 @@ pub fn trace<I: Isa16, G: Goal>(isa: I, tree: &TreeView, batch: Batch, goal: &mu
             // Always written and taken up only where it counts; the stack is popped only where the leaf is done with.
             candidates[passed & 15] = Candidate { flight: at, reference, mask, passage };
             passed += usize::from(mask != 0);
-            next.0[at] = flight.pop_if(mask == 0);
-            prefetch(tree, next.0[at]);
+            self.next.0[at] = flight.pop_if(mask == 0);
+            prefetch(tree, self.next.0[at]);
         }
-        for candidate in &candidates[..passed.min(IN_FLIGHT)] {
+        passed
+    }
+
+    /// Takes what is hit of the triangles that lines pass through.
+    #[inline(always)]
+    fn test_candidates<I: Isa, G: Goal>(&mut self, isa: I, tree: &TreeView, candidates: &[Candidate<I>]) {
+        for candidate in candidates {
             let at = candidate.flight & 15;
-            let flight = &mut flights[at];
+            let flight = &mut self.rays[at];
             let Candidate { reference, passage, mask, .. } = candidate;
-            // SAFETY: as above.
+            // SAFETY: as in `pass_triangles`.
             let leaf = unsafe { item::<Triangles4>(tree, reference & Ref::UNIT) };
             // Two loops, triangles and then parts, had as many branches mispredicted.
             let hits = if *reference < Ref::PARTS {
@@ -205,55 +241,51 @@ pub fn trace<I: Isa16, G: Goal>(isa: I, tree: &TreeView, batch: Batch, goal: &mu
                 parts_hits4(isa, leaf, &flight.space, passage, flight.tmin, flight.t, *mask)
             };
             let instance = flight.inside;
-            next.0[at] = take::<I, G>(isa, tree, flight, hits, &leaf.ids, instance);
-            prefetch(tree, next.0[at]);
+            self.next.0[at] = take::<I, G>(isa, tree, flight, hits, &leaf.ids, instance);
+            prefetch(tree, self.next.0[at]);
         }
-        let mut others = not_nodes & not_triangles & live;
+    }
+
+    /// Rays that are done give way to those that wait; the others visit spheres, shapes and instances. Gives those that
+    /// have no ray any more.
+    #[inline(always)]
+    fn visit_others<I: Isa16, G: Goal>(
+        &mut self,
+        isa: I,
+        tree: &TreeView,
+        goal: &mut G,
+        counters: &mut Counters,
+        waiting: &mut Waiting,
+        mut others: u32,
+    ) -> u32 {
+        let batch = waiting.batch;
+        let mut ended = 0;
         while others != 0 {
             let at = first_of(&mut others);
-            let flight = &mut flights[at];
-            let node = next.0[at];
-            next.0[at] = if node == Ref::END.0 {
+            let flight = &mut self.rays[at];
+            let node = self.next.0[at];
+            self.next.0[at] = if node == Ref::END.0 {
                 land(tree, goal, flight);
                 match waiting.next(isa) {
                     Some((ray, space)) => launch(tree, batch, goal, flight, ray, space),
                     None => {
-                        live &= !(1 << at);
+                        ended |= 1 << at;
                         continue;
                     }
                 }
             } else if node < Ref::INSTANCE {
                 counters.sphere_leaves += 1;
-                // SAFETY: a reference to a sphere leaf (see `TreeView`).
-                let leaf = unsafe { item::<Spheres4>(tree, node & Ref::UNIT) };
-                let ray = flight.ray as usize;
-                let (o, d) = (batch.origin(ray), batch.direction(ray));
-                let mut hits = if leaf.is_shape() {
-                    // SAFETY: a leaf of spheres with this mark is one of a shape, which is as long.
-                    let leaf = unsafe { item::<Shape>(tree, node & Ref::UNIT) };
-                    let target = if G::ANY_HIT { flight.target } else { NONE };
-                    shape(leaf, tree.parts, o, d, [flight.from, target], flight.t)
-                } else {
-                    spheres4(isa, leaf, o, d, flight.from, flight.t)
-                };
-                if G::ANY_HIT
-                    && !leaf.is_shape()
-                    && let Some(hits) = &mut hits
-                {
-                    hits.mask &= !places_of(isa, &leaf.ids, flight.target);
-                }
-                take::<I, G>(isa, tree, flight, hits, &leaf.ids, WORLD)
+                visit_spheres::<I, G>(isa, tree, batch, flight, node & Ref::UNIT)
             } else if node == Ref::LEAVE.0 {
                 leave(tree, batch, goal, flight)
             } else {
                 counters.instances += 1;
                 enter_instance(tree, batch, goal, flight, node & Ref::UNIT)
             };
-            prefetch(tree, next.0[at]);
+            prefetch(tree, self.next.0[at]);
         }
+        ended
     }
-    counters.nodes += u64::from(nodes);
-    counters.triangle_leaves += u64::from(triangle_leaves);
 }
 
 /// Takes the first lane out of a mask that is not empty.
@@ -412,6 +444,30 @@ fn visit_node<I: Isa, G: Goal>(isa: I, tree: &TreeView, flight: &mut Flight, nod
 unsafe fn plane<I: Isa>(isa: I, planes: *const u8, offset: u32) -> I::F8 {
     // SAFETY: the caller's promise.
     unsafe { isa.load8(planes.add(offset as usize).cast()) }
+}
+
+/// A leaf of spheres, or of one other shape.
+#[inline(always)]
+fn visit_spheres<I: Isa, G: Goal>(isa: I, tree: &TreeView, batch: Batch, flight: &mut Flight, unit: u32) -> u32 {
+    // SAFETY: a reference to a sphere leaf (see `TreeView`).
+    let leaf = unsafe { item::<Spheres4>(tree, unit) };
+    let ray = flight.ray as usize;
+    let (o, d) = (batch.origin(ray), batch.direction(ray));
+    let mut hits = if leaf.is_shape() {
+        // SAFETY: a leaf of spheres with this mark is one of a shape, which is as long.
+        let leaf = unsafe { item::<Shape>(tree, unit) };
+        let target = if G::ANY_HIT { flight.target } else { NONE };
+        shape(leaf, tree.parts, o, d, [flight.from, target], flight.t)
+    } else {
+        spheres4(isa, leaf, o, d, flight.from, flight.t)
+    };
+    if G::ANY_HIT
+        && !leaf.is_shape()
+        && let Some(hits) = &mut hits
+    {
+        hits.mask &= !places_of(isa, &leaf.ids, flight.target);
+    }
+    take::<I, G>(isa, tree, flight, hits, &leaf.ids, WORLD)
 }
 
 /// Takes the best of a leaf's candidates, if it beats the hit in hand, and goes on.
