@@ -512,7 +512,7 @@ class Triplanar(TypedDict, total=False):
 
 
 class Checkerboard(TypedDict, total=False):
-    """Squares of two colours, one square a unit of the mapped coordinates: `a` where the sum of their whole parts is even. In space they are cubes.
+    """Squares of two colours, one square a unit of the mapped coordinates: `a` where the sum of their whole parts is even. In space they are cubes, and a face that lies where two meet is in the upper one.
 
     a: One colour.
     b: The other one.

@@ -206,7 +206,7 @@ impl Tracer<'_> {
             lobes.sample(s.ns, wo, random)
         };
         let cos = s.ns.dot(direction);
-        if cos <= 0.0 {
+        if cos <= 0.0 || s.buries(direction) {
             return DVec3::ZERO;
         }
         let f = lobes.f(s.ns, wo, direction);

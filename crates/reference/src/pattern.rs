@@ -85,7 +85,10 @@ fn ramp(x: f64, stops: &[(f64, [f64; 3])], between: Between) -> DVec3 {
 fn t(kind: PatternKind, p: DVec3) -> f64 {
     let wave = |x: f64| 0.5 - 0.5 * (TAU * x).cos();
     match kind {
-        PatternKind::Checkerboard => p.floor().element_sum().rem_euclid(2.0),
+        PatternKind::Checkerboard => {
+            // A face that lies where two cubes meet is in the upper one.
+            (p + 1.0 / 1_048_576.0).floor().element_sum().rem_euclid(2.0)
+        }
         PatternKind::Lines { at_u, at_v, width } => {
             let near = |x: f64| (x - x.round()).abs() <= 0.5 * width;
             f64::from(!(at_u && near(p.x) || at_v && near(p.y)))

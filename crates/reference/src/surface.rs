@@ -30,6 +30,17 @@ pub struct Surface {
     pub on_mesh: Option<OnMesh>,
 }
 
+/// Starts that are less above a triangle lie on it: what rounding makes of scenes some units wide.
+const RAISED: f64 = 1e-9;
+
+impl Surface {
+    /// Whether a direction leads from `start` into the triangle at once. The shading normal of a hollow smooth mesh
+    /// leaves such directions above the horizon; what lies there is behind a wall.
+    pub fn buries(&self, direction: DVec3) -> bool {
+        self.smooth && direction.dot(self.ng) <= 0.0 && (self.start - self.p).dot(self.ng) <= RAISED
+    }
+}
+
 /// A point of a triangle of a mesh.
 pub struct OnMesh {
     /// The numbers of the corners' vertices.

@@ -280,12 +280,12 @@ pub fn noise(relative: f64, rate: f64, samples: u32) -> Option<String> {
     Some(line)
 }
 
-/// `3 pixels bear it, 80,12 most; the others have 1.2 % at most`
+/// `3 pixels bear it, (80, 12) most; the others have 1.2 % at most`
 fn few_in_words(FewNoisy { pixels, worst: [x, y], rest }: FewNoisy) -> String {
     let rest = shown(100.0 * rest);
     match pixels {
-        1 => format!("one pixel bears it, {x},{y}; the others have {rest} % at most"),
-        _ => format!("{pixels} pixels bear it, {x},{y} most; the others have {rest} % at most"),
+        1 => format!("one pixel bears it, ({x}, {y}); the others have {rest} % at most"),
+        _ => format!("{pixels} pixels bear it, ({x}, {y}) most; the others have {rest} % at most"),
     }
 }
 

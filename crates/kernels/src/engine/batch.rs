@@ -1,7 +1,7 @@
 //! The state of one batch: structures of arrays, allocated once per thread, small enough to stay in the L2 cache.
 //!
-//! A batch is up to [`ITEMS`] items; an item is a quarter of a block of 256 pixels at one sample index: every other one
-//! of every other row, 64 of them. Where they lie, [`crate::sampling::blocks`] says. Slot s is pixel s % 64 (in
+//! A batch is up to [`ITEMS`] items; an item is a quarter of a block of 256 pixels at one sample index: one column
+//! and one row of each pair, 64 of them. Where they lie, [`crate::sampling::blocks`] says. Slot s is pixel s % 64 (in
 //! Z-order) of item s / 64; slots whose pixel lies outside of the picture have no path. A slot's radiance is summed in
 //! the order of its path's vertices, whatever the schedule.
 
@@ -93,9 +93,9 @@ pub struct Paths {
     /// Shading normal where the ray starts; written and read only where there are several lights or rays are aimed, and
     /// the path is not [`path::SPECULAR`].
     pub normal: Columns,
-    /// Camera rays: one over the pixel's filter there. From a rough surface that they hit, with light paths at work: K
-    /// cos J / (h P) of [`super::stages::light_paths`], before what the ray meets is known without cos and P; zero
-    /// where no light path could come.
+    /// Camera rays: the camera's measure over the pixel's filter there. From a rough surface that they hit, with
+    /// light paths at work: K cos J / (h P) of [`super::stages::light_paths`], before what the ray meets is known
+    /// without cos and P; zero where no light path could come.
     pub film: Column<f32>,
     /// Slot and state, see [`path`].
     pub slot: Column<u32>,
@@ -256,6 +256,8 @@ pub struct Members {
     pub primitive: Column<u32>,
     /// Its instance.
     pub instance: Column<u32>,
+    /// Not zero where some of them may lie on smooth triangles.
+    pub smooth: u64,
     /// Number of members.
     pub len: usize,
 }
@@ -434,7 +436,7 @@ impl Batch {
             channel[..slots].fill(0.0);
             channel[PATHS..PATHS + slots].fill(0.0);
         }
-        self.members.len = 0;
+        (self.members.len, self.members.smooth) = (0, 0);
         self.suffixes.len = 0;
         self.groups.list.clear();
         self.groups.of_item = [0; ITEMS];

@@ -38,7 +38,8 @@ impl LightPaths {
         }
         let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
         let count = (pixels * PER_FIVE_PIXELS / 5).clamp(1, MOST) as u32;
-        let shares: Vec<Share> = plan.shares(count).collect();
+        let strays = |share: &Share| plan.pairs.strays[share.pair as usize];
+        let shares: Vec<Share> = plan.shares(count).filter(|share| !strays(share)).collect();
         let casters = plan.casters.list.len();
         let mut pair_of = vec![NONE; scene.lights.len() * casters];
         let mut density = vec![0.0; plan.ends.len()];

@@ -35,9 +35,9 @@ pub enum Purpose {
     Direction(u32),
     /// Position on a light.
     Light(u32),
-    /// Which light; which lobe.
+    /// Which light (both, where the tree of lights is deep).
     Choice(u32),
-    /// Whether the path goes on (first); not used (second).
+    /// Whether the path goes on (first); which lobe (second).
     Roulette(u32),
     /// Whether a ray is aimed, and at what (first); not used (second).
     Aim(u32),

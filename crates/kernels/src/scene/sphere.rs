@@ -5,11 +5,13 @@
 //! N.d + k g.d, gamma = k g.g + 2 N.g. Nothing of the size of r occurs. Where every ray is to test a sphere, there are
 //! two forms:
 //!
-//! * *large* ones (r at least an eighth of the scene's size) are lifted, gamma = k |o|^2 + 2 m.o + c, beta = k o.d +
+//! * *large* ones (see [`Sphere::is_large`]) are lifted, gamma = k |o|^2 + 2 m.o + c, beta = k o.d +
 //!   m.d with m = N - k P and c = k P.P - 2 N.P: eight fused operations;
 //! * *small* ones are seen from the ray's closest approach to their centre, which needs no P (Haines, Guenther,
 //!   Akenine-Moeller: Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019): half the operations
-//!   of the same about P, and as exact where r is small against the scene.
+//!   of the same about P. As exact where r is not large against the scene, and where the ray begins far away, a
+//!   thousand radii or a million: what is lifted is wrong by 2^-24 (|o| / r)^2 of itself there, and a lamp of radius
+//!   1 at 1000 was seen an eighth too large.
 
 use super::table::Table;
 use glam::DVec3;
@@ -82,30 +84,62 @@ pub struct SphereTable {
 /// Up to so many small spheres are tested by every ray over lanes; more of them go into the tree.
 const FEW: usize = 24;
 
-/// Radius from which a sphere is large, in render space.
-const LARGE: f64 = 0.125;
+/// Radius from which a sphere may be large, in render space.
+const LARGE: f64 = 2.0;
 
-/// How many spheres are small, if they are too many to be tested by every ray.
-fn many_small(spheres: &[Sphere]) -> usize {
-    let small = spheres.iter().filter(|s| s.radius < LARGE).count();
-    if small > FEW { small } else { 0 }
+/// Large spheres are at most so many radii away: rays begin near the origin.
+const NEAR: f64 = 16.0;
+
+impl Sphere {
+    /// Whether its size is much of what rays have to do with it: a floor or a wall.
+    pub fn is_large(&self) -> bool {
+        self.radius >= LARGE && self.center.length() <= NEAR * self.radius
+    }
+}
+
+/// Radius below which a sphere is small, in render space: one for the tree, if there are many.
+const SMALL: f64 = 0.125;
+
+/// Up to so many spheres that are neither large nor small are tested by every ray, as most rays would come to them in a
+/// tree; more of them go into it, and all small ones.
+const SOME: usize = 24;
+
+/// Which spheres hang in the tree.
+#[derive(Clone, Copy)]
+struct InTree {
+    small: bool,
+    others: bool,
+}
+
+impl InTree {
+    fn of(spheres: &[Sphere]) -> Self {
+        let count = |pick: fn(&Sphere) -> bool| spheres.iter().filter(|s| pick(s)).count();
+        let others = count(|s| !s.is_large() && s.radius >= SMALL) > SOME;
+        InTree { small: others || count(|s| !s.is_large() && s.radius < SMALL) > FEW, others }
+    }
+
+    fn holds(self, sphere: &Sphere) -> bool {
+        !sphere.is_large() && if sphere.radius < SMALL { self.small } else { self.others }
+    }
 }
 
 impl SphereTable {
     /// Puts the spheres in the order of their primitive ids: those that hang in the tree first.
     pub fn order(spheres: &mut [Sphere]) {
-        if many_small(spheres) > 0 {
-            spheres.sort_by_key(|s| s.radius >= LARGE);
+        let in_tree = InTree::of(spheres);
+        if in_tree.small || in_tree.others {
+            spheres.sort_by_key(|sphere| !in_tree.holds(sphere));
         }
     }
 
     /// Of spheres in their [`order`](SphereTable::order).
     pub fn new(spheres: &[Sphere], emitter_material: u32) -> Self {
         let anchored: Vec<Anchored> = spheres.iter().map(Anchored::new).collect();
-        let in_tree = many_small(spheres);
+        let hangs = InTree::of(spheres);
+        let in_tree = spheres.iter().filter(|sphere| hangs.holds(sphere)).count();
         let every_ray = || (0..).zip(spheres.iter().zip(&anchored)).skip(in_tree);
-        let large = every_ray().filter(|(_, (s, _))| s.radius >= LARGE).map(|(id, (s, _))| LargeSphere::new(id, s));
-        let small = every_ray().filter(|(_, (s, _))| s.radius < LARGE).map(|(id, (_, a))| SmallSphere::new(id, a));
+        let large = every_ray().filter(|(_, (s, _))| s.is_large()).map(|(id, (s, _))| LargeSphere::new(id, s));
+        let small = every_ray().filter(|(_, (s, _))| !s.is_large()).map(|(id, (_, a))| SmallSphere::new(id, a));
         let rows = spheres.iter().zip(&anchored).map(|(s, &Anchored { p, n, k })| {
             let material = if s.material == super::NONE { emitter_material } else { s.material };
             let light = s.light.wrapping_add(1);

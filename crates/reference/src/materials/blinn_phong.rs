@@ -41,11 +41,12 @@ impl Rough for BlinnPhong {
         }
     }
 
-    /// Reflection in h has the Jacobian 1/(4 wo.h) (Walter et al. 2007, eq. 14).
+    /// Reflection in h has the Jacobian 1/(4 wo.h) (Walter et al. 2007, eq. 14), and is the same in -h: where wo is
+    /// below the horizon the half vector that was drawn may lie behind it.
     fn density(&self, n: DVec3, wo: DVec3, wi: DVec3) -> f64 {
         let diffuse = n.dot(wi).max(0.0) / PI;
         let h = (wo + wi).normalize();
-        let of_h = (self.exponent + 1.0) / TAU * n.dot(h).max(0.0).powf(self.exponent);
+        let of_h = (self.exponent + 1.0) / TAU * n.dot(h).abs().powf(self.exponent);
         0.5 * diffuse + 0.5 * of_h / (4.0 * wo.dot(h))
     }
 }

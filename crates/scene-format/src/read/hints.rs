@@ -369,7 +369,11 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         {
             "blur by depth is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`"
         }
-        "lens" | "film_gate" | "aperture_blades" if camera => {
+        "lens" if camera => {
+            "what a lens of 50 mm sees is `focal_length: 50`, instead of `fov`; blur by depth is an effect: `effects: \
+             Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`"
+        }
+        "film_gate" | "aperture_blades" if camera => {
             "the lens is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`"
         }
         "f_stop" | "fstop" | "f_number" | "fnumber" | "f" if has("aperture") => {
@@ -527,7 +531,8 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
             "all that is written is seen: leave the object out, or make it a comment"
         }
         "y" | "d" | "height" | "offset" | "distance" | "level" | "z" if def.name == "Plane" => {
-            "where a plane is, a point of it says: `point: (0, 1, 0)`; which way it faces, its `normal`"
+            "where a plane is, a point of it says, `point: (0, -1, 0)` one below the origin; which way it faces, its \
+             `normal`"
         }
         "units" | "unit" => "a scene has one unit, whichever it is: leave it out",
         _ => return None,

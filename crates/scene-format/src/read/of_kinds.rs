@@ -18,7 +18,12 @@ pub(super) const OBJECTS: Hints = &[
          name its file in a `Mesh`",
     ),
     (
-        &["nurbs", "text", "teapot", "bunny", "dragon", "suzanne", "monkey"],
+        &["text", "label", "caption", "annotation"],
+        "letters are written over the picture: `output: Output(marks: { \"A\": (0, 1, 0) })` tells in the report where \
+         each point is seen; or name a mesh of them in a `Mesh`",
+    ),
+    (
+        &["nurbs", "teapot", "bunny", "dragon", "suzanne", "monkey"],
         "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a \
          `Mesh`",
     ),

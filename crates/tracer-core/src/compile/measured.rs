@@ -24,7 +24,7 @@ impl Measured {
     ) -> (Self, Vec<Vec<[f64; 3]>>) {
         let eye = DVec3::from(desc.camera.position.value);
         let look_at = DVec3::from(desc.camera.look_at.value);
-        let frame = like.frame.unwrap_or_else(|| Frame::choose(eye, &marks(objects, look_at)));
+        let frame = like.frame.unwrap_or_else(|| Frame::choose(eye, look_at, &marks(objects, look_at)));
         let camera = camera::camera(desc, &frame);
         unmeant::far_view(desc, &camera, &frame, diagnostics);
         let Objects { loaded, assigned, curved, solids, placed } = objects;

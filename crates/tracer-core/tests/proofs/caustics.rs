@@ -172,6 +172,7 @@ fn random_scenes_48_to_53() {
 /// many seeds tells its error. 13 times less; a third of that is asked for. The seeds are fixed, so the test gives the
 /// same every time.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn photons_are_worth_it() {
     let render = |caustics: Caustics, samples: u32, seed: u32| {
         let mut desc = on_the_floor(vec![ball(3.0, glass(1.5))]);

@@ -17,6 +17,7 @@ mod convergence;
 mod coplanar;
 mod curved;
 mod direct;
+mod distances;
 mod environment;
 mod figures;
 mod glints;

@@ -53,6 +53,7 @@ fn error(films: &[Film]) -> f64 {
 /// seeds where few of them bear it (a lamp's border, glints of glass): in six seeds ratios were from 0.84 to 1.17. As
 /// for independent samples (`Film::variance`) they were 1.15 to 2.9 in five scenes.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn what_is_told_is_the_error() {
     let ratios: Vec<(String, f64)> = SCENES
         .par_iter()
@@ -93,6 +94,7 @@ fn few_pixels_are_not_said_to_be_good_too_soon() {
 
 /// Of a pass that was ended early pixels have other samples than others, and light paths of other indices.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn what_is_told_of_an_unfinished_pass_is_the_error() {
     for name in ["fig6", "gallery/still_life"] {
         let scene = of_gallery(name);

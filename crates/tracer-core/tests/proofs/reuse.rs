@@ -69,6 +69,7 @@ fn random_scenes_36_to_47() {
 /// apart and half of them share what the tree may hide, 5.7 times at 4 samples. An eighth of a 32-fold use is asked
 /// for. The seeds are fixed, so the test gives the same every time.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn sharing_is_worth_it() {
     let objects = vec![ball(diffuse([0.7; 3]), -15.0), low_poly(diffuse([0.7; 3]), 15.0, Shading::Smooth)];
     let render = |reuse: Reuse, samples: u32, seed: u32| {

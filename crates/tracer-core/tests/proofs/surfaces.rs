@@ -6,7 +6,7 @@ use crate::support::meshes::{cube, icosphere, square};
 use crate::support::{compiled, film};
 use glam::DVec3;
 use scene_format::SceneDesc;
-use scene_format::desc::{Focus, Light, Material, MaterialRef, Object, PixelFilter, Shading, Transform};
+use scene_format::desc::{Focus, Integrator, Light, Material, MaterialRef, Object, PixelFilter, Shading, Transform};
 use std::path::{Path, PathBuf};
 use tracer_core::{Crop, Film};
 use tracer_reference::statistics::{Estimate, sidak};
@@ -125,6 +125,52 @@ fn the_terminator_of_a_low_poly_ball_is_smooth() {
         error.sqrt()
     );
     assert!(count > 200 && ratio >= 5.0, "only {ratio} times better in {count} pixels");
+}
+
+/// Within a closed mesh it is dark to the last bit, with interpolated normals as well, which leave directions into the
+/// triangle above their horizon: nothing comes through the wall, by samples of lights, rays, shared segments, aimed
+/// rays or photons.
+#[test]
+fn smooth_meshes_are_dark_within() {
+    let lamps = [[3.0, 8.0, 2.0], [-6.0, 1.0, 3.0], [0.0, -5.0, -5.0], [5.0, 0.0, -4.0]];
+    for (level, middle) in [(0, [0.3, 0.1, 0.05]), (1, [17.0, -3.0, 5.0]), (2, [0.0; 3])] {
+        let shell = icosphere(level).off(&format!("icosphere-{level}"));
+        let [x, y, z] = middle;
+        let mut objects = vec![mesh(&shell, diffuse([0.8; 3]), Shading::Smooth, vec![Transform::Translate(middle)])];
+        objects.push(sphere([x + 0.3, y - 0.2, z - 0.3], 0.2, glass(1.5)));
+        objects.push(sphere([x - 0.3, y - 0.2, z - 0.3], 0.2, conserving([0.7; 3], 200.0, 0.5)));
+        let lights = lamps.map(|at| light([x + at[0], y + at[1], z + at[2]], 1.0, [100.0; 3]));
+        let desc = scene(64, lights.into(), objects)
+            .camera([x, y + 0.1, z + 0.6], [x, y, z - 1.0], 100.0)
+            .background([1.0; 3])
+            .bounces(4);
+        for integrator in [Integrator::Full, Integrator::Path] {
+            let mut desc = desc.clone();
+            desc.render.integrator = integrator.clone();
+            let film = film(&compiled(&desc), 32, 1);
+            let lit = pixels(64).filter(|&(x, y)| film.radiance(x, y) != [0.0; 3]).count();
+            assert_eq!(lit, 0, "pixels with light in a ball of level {level}, {integrator:?}");
+        }
+    }
+}
+
+/// Bowls of few triangles with interpolated normals, matt and glossy: what is hollow, and normals that are seen from
+/// behind, as the reference has them.
+#[test]
+fn smooth_bowls_are_those_of_the_reference() {
+    let mut bowl = icosphere(1);
+    let low = |triangle: &[usize; 3]| triangle.iter().map(|&k| bowl.positions[k][1]).sum::<f64>() < 0.9;
+    bowl.triangles = bowl.triangles.iter().filter(|triangle| low(triangle)).copied().collect();
+    let bowl = bowl.off("bowl-1");
+    let samples = Samples { engine: 512, reference: 512 };
+    for (name, material) in [("matt", diffuse([0.8, 0.5, 0.3])), ("glossy", conserving([0.9; 3], 50.0, 0.4))] {
+        let objects = vec![mesh(&bowl, material, Shading::Smooth, vec![])];
+        let desc = scene(32, vec![light([3.0, 4.0, 1.0], 0.8, [40.0; 3])], objects)
+            .camera([0.5, 3.5, 3.0], [0.0; 3], 36.0)
+            .background([0.3, 0.4, 0.5])
+            .bounces(3);
+        assert_same_picture(&format!("a smooth bowl, {name}"), &desc, samples);
+    }
 }
 
 /// Radii from 1e-3 to 1e6 in one picture, each seen from close by.

@@ -45,6 +45,27 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: kernel_units(&["engine::stages::materials"]),
     },
     Mutant {
+        name: "half-vectors-behind-the-viewer",
+        file: BSDF,
+        find: "let usable = counted & c(0.0).lt(cos_i)",
+        replace: "let usable = c(0.0).lt(cos_i)",
+        caught_by: kernel_units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "hollow-meshes-let-light-in",
+        file: "crates/kernels/src/engine/stages/surface.rs",
+        find: "self.smooth & wi.dot(self.ng).le(F::splat(0.0)) & !self.raised()",
+        replace: "wi.dot(wi).le(F::splat(0.0))",
+        caught_by: proofs(&["surfaces::smooth_meshes_are_dark_within"]),
+    },
+    Mutant {
+        name: "panoramas-see-above-the-circle-of-the-eyes",
+        file: "crates/kernels/src/engine/stages/cameras/stereo.rs",
+        find: "zero.lt(s2));",
+        replace: "zero.lt(square));",
+        caught_by: kernel_units(&["engine::stages::cameras"]),
+    },
+    Mutant {
         name: "glossy-pdf-without-jacobian",
         file: BLINN_PHONG,
         find: "(f, lobe * ((alpha + c(1.0)) * c(0.125 * FRAC_1_PI)) / wo_h)",

@@ -154,4 +154,11 @@ pub const MUTANTS: &[Mutant] = &[
         replace: "let arrives = |_: usize| true;",
         caught_by: proofs(&["caustics::on_any_film"]),
     },
+    Mutant {
+        name: "photons-of-far-lights-start-at-them",
+        file: PLAN,
+        find: "if let Start::Before(way) = start { way as f32 } else { f32::INFINITY }",
+        replace: "if let Start::Before(way) = start { f32::INFINITY.max(way as f32) } else { f32::INFINITY }",
+        caught_by: proofs(&["distances::the_sun_may_be_as_far_as_it_is"]),
+    },
 ];

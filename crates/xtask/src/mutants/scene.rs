@@ -409,4 +409,32 @@ pub const MUTANTS: &[Mutant] = &[
         replace: "let least = least.min(total / most);",
         caught_by: suite("bvh_same_bits", &["triangles_are_cut_the_same_for_any_number_of_threads"]),
     },
+    Mutant {
+        name: "balls-are-large",
+        file: SPHERE,
+        find: "const LARGE: f64 = 2.0;",
+        replace: "const LARGE: f64 = 0.125;",
+        caught_by: proofs(&["distances::lamps_are_as_large_as_they_are"]),
+    },
+    Mutant {
+        name: "one-far-thing-is-the-middle",
+        file: "crates/kernels/src/scene/frame.rs",
+        find: "let centre = if near_some { eye } else { middle };",
+        replace: "let centre = middle;",
+        caught_by: proofs(&["distances::one_thing_may_be_far"]),
+    },
+    Mutant {
+        name: "faces-between-cells-are-of-both",
+        file: "crates/kernels/src/engine/stages/patterns/checkerboard.rs",
+        find: "let rounding = rounding.min(F::splat(0.01));",
+        replace: "let rounding = rounding.min(F::splat(0.0));",
+        caught_by: proofs(&["distances::faces_where_cells_meet_are_of_one_cell"]),
+    },
+    Mutant {
+        name: "pictures-end-before-the-horizon",
+        file: "crates/kernels/src/engine/stages/textures.rs",
+        find: "let x = if far.any() { F::select(far, scrambled(x), x) } else { x };",
+        replace: "",
+        caught_by: proofs(&["distances::pictures_reach_to_the_horizon"]),
+    },
 ];

@@ -43,7 +43,7 @@ pub const PROOFS: &[Proof] = &[
     proof(
         "proofs",
         Always,
-        "the engine's proofs that take more than some seconds each; seven minutes",
+        "the engine's proofs that take more than some seconds each; ten minutes",
         &[],
         &["cargo test --locked --workspace --test proofs -- --ignored"],
     ),

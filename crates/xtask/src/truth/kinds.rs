@@ -273,6 +273,9 @@ fn pinhole(world: &mut World, random: &mut Random) {
 }
 
 fn dark_room(world: &mut World, random: &mut Random) {
+    if once_in(random, 3) {
+        return super::dark_shell::dark_shell(world, random);
+    }
     two_rooms(world, |_, _| None, random);
     if once_in(random, 3) {
         // Glass and mirrors in the dark find no light either.

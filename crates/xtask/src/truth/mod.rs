@@ -10,6 +10,7 @@
 //! runs.
 
 pub mod curved;
+mod dark_shell;
 pub mod draw;
 pub mod examine;
 pub mod judge;

@@ -94,7 +94,7 @@ impl Casters {
 
 /// A sphere around a shape. A plane's holds all that a scene has, lights and all, so that photons go everywhere by the
 /// cosine and find all of it, however far.
-fn around_shape(shape: &Shape) -> (DVec3, f64) {
+pub(super) fn around_shape(shape: &Shape) -> (DVec3, f64) {
     if shape.unit.is_endless() {
         return (DVec3::ZERO, 1e9);
     }
@@ -109,7 +109,7 @@ fn passes_on(scene: &Scene, material: u32) -> f64 {
 
 /// The sphere around a placed sphere: the largest stretch of a matrix M is at most the root of the largest row sum of
 /// M^T M.
-fn placed(rows: [[f32; 4]; 3], center: DVec3, radius: f64) -> (DVec3, f64) {
+pub(super) fn placed(rows: [[f32; 4]; 3], center: DVec3, radius: f64) -> (DVec3, f64) {
     let row = |k: usize| DVec3::from([rows[k][0], rows[k][1], rows[k][2]].map(f64::from));
     let linear = DMat3::from_cols(row(0), row(1), row(2)).transpose();
     let translation = DVec3::from([rows[0][3], rows[1][3], rows[2][3]].map(f64::from));
@@ -156,7 +156,7 @@ impl<'a> MeshBounds<'a> {
 }
 
 /// A sphere around triangles: the middle of their box, and the farthest corner.
-fn around(scene: &Scene, triangles: impl Iterator<Item = u32> + Clone) -> (DVec3, f64) {
+pub(super) fn around(scene: &Scene, triangles: impl Iterator<Item = u32> + Clone) -> (DVec3, f64) {
     let corners = || triangles.clone().filter_map(|t| scene.triangles.corners(t)).flatten();
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for corner in corners() {

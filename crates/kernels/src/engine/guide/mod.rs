@@ -14,6 +14,7 @@
 //!
 //! How guides are made, `engine::techniques::guides` says.
 
+mod approach;
 pub mod casters;
 pub mod cells;
 pub mod plan;

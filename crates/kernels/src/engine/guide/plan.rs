@@ -1,5 +1,6 @@
 //! Which photons are sent from which light at which caster.
 
+use super::approach::{Start, Ways};
 use super::casters::{Caster, Casters};
 use crate::lanes::{Bits, Lanes};
 use crate::sampling::sampler::hash3;
@@ -49,6 +50,12 @@ pub struct PairTable {
     pub caster_center: [Vec<f32>; 3],
     /// Its squared radius.
     pub caster_radius2: Vec<f32>,
+    /// How far before that middle photons start; infinite where they start at the light (see [`super::approach`]).
+    pub approach: Vec<f32>,
+    /// They go astray: no light paths are made of them.
+    pub strays: Vec<bool>,
+    /// Some start before their caster.
+    pub any_far: bool,
     /// The caster.
     pub caster: Vec<u32>,
     /// One of [`aim`].
@@ -226,6 +233,7 @@ impl PairTable {
     fn new(scene: &Scene, seed: u32, pairs: &[Pair], casters: &Casters) -> PairTable {
         let mut table = PairTable::default();
         let any_flat = scene.lights.iter().any(|light| light.flat().is_some());
+        let mut ways = Ways::new(scene);
         for (k, pair) in pairs.iter().enumerate() {
             let light = &scene.lights[pair.light];
             let radiance = light.radiance();
@@ -244,6 +252,14 @@ impl PairTable {
             table.area.push((area * directions) as f32);
             table.cap.push(pair.cap as f32);
             table.caster_radius2.push((caster.radius * caster.radius * 1.000_01) as f32);
+            let bounds = light.bounds(&scene.spheres);
+            let start = match pair.aim {
+                aim::EVERYWHERE => Start::Light,
+                other => ways.start(bounds, caster, other == aim::INSIDE),
+            };
+            table.approach.push(if let Start::Before(way) = start { way as f32 } else { f32::INFINITY });
+            table.any_far |= matches!(start, Start::Before(_));
+            table.strays.push(start == Start::Stray);
             table.caster.push(pair.caster as u32);
             table.aim.push(pair.aim);
             table.key.push(hash3(seed, k as u32, 0xca05_71c5) as u32);
@@ -251,7 +267,7 @@ impl PairTable {
         table
     }
 
-    /// Where photons of a light start. `any_flat`: the scene has lights that are no spheres.
+    /// Where photons of a light start. `any_flat`: the scene has flat lights.
     fn push_light(&mut self, scene: &Scene, number: usize, caster: DVec3, any_flat: bool) {
         let (light, lights) = (&scene.lights[number], &scene.tables.lights);
         let push = |columns: &mut [Vec<f32>; 3], v: DVec3| {

@@ -20,7 +20,7 @@
 
 use super::materials::TWO_PI;
 use super::points::{PairPoints, PixelOf};
-use super::share::bsdf_of;
+use super::share::{bsdf_of, buried};
 use crate::engine::batch::{BRANCHING, Batch, CAPACITY, LATE_AIMS, RAISED, path};
 use crate::engine::guide::cells::{SPHERES, SphereRows};
 use crate::engine::guide::{Guide, MOST_CASTERS};
@@ -279,7 +279,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         let (f, by_itself) = bsdf.evaluate(n, V3::load(&aimers.wo, i), wi, cos);
         // What the own ray carried along this direction, and the weight apart, which roulette must not see: both ways
         // are one sum.
-        aimed = aimed & zero.lt(by_itself);
+        aimed = aimed & zero.lt(by_itself) & !buried(aimers, i, wi);
         let by_itself = F::select(aimed, by_itself, one);
         let throughput = V3::<F>::load(&aimers.weight, i).scale(f.0 * cos / by_itself);
         let weight = by_itself / (by_itself + density);

@@ -34,6 +34,7 @@ pub fn ambient<F: Lanes>(scene: &Scene, seed: u32, distance: f32, batch: &mut Ba
         let slot = F::U::load(&paths.slot[i..]) & F::U::splat(path::SLOT);
         let (u, v) = directions.points(&PixelOf::<F>::new(slot, &batch.pixels));
         let wi = s.ns.to_world(warp::cosine_hemisphere(u, v));
+        let hit = hit & !s.buries(wi);
         let k = shadows.len;
         s.start.compress(hit, &mut shadows.origin, k);
         wi.compress(hit, &mut shadows.direction, k);

@@ -93,7 +93,8 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
         let sin2 = (F::gather(&pairs.caster_radius2, pair) / distance2).min(one);
         let cone = sin2 / (one + (one - sin2).sqrt());
         let towards = to.scale(one / distance2.sqrt());
-        let mut direction = towards.to_world(warp::cone(u, v, cone));
+        let in_cone = warp::cone(u, v, cone);
+        let mut direction = towards.to_world(in_cone);
         let back = sided & two_sided & normal.dot(direction).lt(zero);
         normal = V3::select(back, normal.neg(), normal);
         let mut density = normal.dot(direction) * cone * c(super::materials::TWO_PI);
@@ -115,6 +116,13 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
             let light = F::U::gather(&pairs.light, pair);
             let share = share_towards(scene, light, (point, normal.neg()), zero, sent);
             (flux, radiance) = (flux.mul(share), radiance.mul(share));
+        }
+        if pairs.any_far {
+            let approach = F::gather(&pairs.approach, pair);
+            let distance = distance2.sqrt();
+            let aside = towards.to_world(V3(in_cone.0, in_cone.1, zero)).scale(distance);
+            let before = direction.mad(-approach, V3::gather_columns(&pairs.caster_center, pair).add(aside));
+            point = V3::select(approach.lt(distance), before, point);
         }
         let k = paths.len;
         point.compress(sent, &mut paths.origin, k);
@@ -186,7 +194,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
             }
         }
         let narrow = bsdf.narrow();
-        let passes = bsdf.specular() | narrow;
+        let mut passes = bsdf.specular() | narrow;
         if !goes_on || !passes.any() {
             continue;
         }
@@ -213,6 +221,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
             weight = V3::select(narrow, carries, weight);
             start = V3::select(narrow, s.start, start);
             leaving = F::U::select(narrow, leaves(&s, wi, primitive), leaving);
+            passes = passes & !(narrow & s.buries(wi));
         }
         let carried = flux.mul(weight);
         let alive = passes & zero.lt(carried.max_component());

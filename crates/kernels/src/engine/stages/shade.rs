@@ -2,7 +2,7 @@
 //!
 //! Direct light by multiple importance sampling (Veach 1997, power heuristic) of the light's solid angle and the
 //! material's lobe. At the last vertex a diffuse surface casts no further ray, so there the light sample has weight
-//! one.
+//! one; but where there is a background, which only a further ray finds.
 
 mod emission;
 mod light_sample;
@@ -157,7 +157,8 @@ impl<'a, F: Lanes> Stage<'a, F> {
         }
     }
 
-    /// Rough lanes that a further ray is cast from: not at the last vertex, but to see a background.
+    /// Lanes that a further ray is cast from: all but diffuse ones at the last vertex, where no background is to be
+    /// seen.
     #[inline(always)]
     fn goes_on(&self, at: &Vertex<'_, F>) -> F::M {
         let is_last = self.vertex == self.scene.max_bounces || self.pass.task == Task::Direct;
@@ -230,7 +231,9 @@ impl<'a, F: Lanes> Stage<'a, F> {
         }
         let specular = F::U::select(at.bsdf.specular(), F::U::splat(path::SPECULAR), F::U::splat(0));
         (at.ray.slot | specular).compress(alive, &mut next.slot[k..]);
-        at.leaves(onward.wi).compress(alive, &mut next.from_primitive[k..]);
+        // Rays of mirrors and glass begin at the triangle, on the side that they go to.
+        let left = F::U::select(at.bsdf.specular(), at.ray.primitive, at.leaves(onward.wi));
+        left.compress(alive, &mut next.from_primitive[k..]);
         at.ray.instance.compress(alive, &mut next.from_instance[k..]);
         next.len += alive.count();
     }

@@ -5,7 +5,7 @@
 //! item, the same number of vertices before) could have cast a ray to every suffix j, with the density per area p_ij =
 //! q_i pdf_i cos_y / d^2, so all of them are one estimate by the balance heuristic (Veach 1997), visibility V included:
 //!
-//! pixel i gets  w_i f_ij cos_x cos_y / d^2 V_ij L_j / sum_k q_k p_kj V_kj,
+//! pixel i gets  w_i f_ij cos_x cos_y / d^2 V_ij L_j / sum_k p_kj V_kj,
 //!
 //! w_i being what its path carries to x_i, q_i its chance to survive roulette. That is unbiased: whether a term is
 //! counted does not depend on who has found it. Every segment that counts is tested, so no sample is below zero and no
@@ -46,7 +46,6 @@ const MOST_BOXES: u32 = 6;
 #[inline(always)]
 pub fn add_members<F: Lanes>(members: &mut Members, at: &Vertex<'_, F>, weight: V3<F>, survival: F, mask: F::M) {
     let Vertex { ray, s, bsdf, wo, .. } = at;
-    let raised = s.smooth & !s.start.sub(s.p).dot(s.ng).le(s.offset);
     let Packed { kind, numbers } = bsdf.pack();
     let k = members.len;
     s.start.compress(mask, &mut members.start, k);
@@ -57,10 +56,11 @@ pub fn add_members<F: Lanes>(members: &mut Members, at: &Vertex<'_, F>, weight: 
     numbers[0].compress(mask, &mut members.numbers[0][k..]);
     numbers[1].compress(mask, &mut members.numbers[1][k..]);
     survival.compress(mask, &mut members.survival[k..]);
-    F::U::select(raised, kind | F::U::splat(RAISED), kind).compress(mask, &mut members.kind[k..]);
+    F::U::select(s.raised(), kind | F::U::splat(RAISED), kind).compress(mask, &mut members.kind[k..]);
     ray.slot.compress(mask, &mut members.slot[k..]);
     ray.primitive.compress(mask, &mut members.primitive[k..]);
     ray.instance.compress(mask, &mut members.instance[k..]);
+    members.smooth |= u64::from(s.smooth.bits());
     members.len += mask.count();
 }
 
@@ -70,6 +70,13 @@ pub fn bsdf_of<F: Lanes>(members: &Members, i: usize, lanes: F::M) -> Bsdf<'stat
     let [first, second] = &members.numbers;
     let numbers = [F::load(&first[i..]), F::load(&second[i..])];
     Bsdf::unpack(Packed { kind: F::U::load(&members.kind[i..]), numbers }, lanes)
+}
+
+/// Of members i .. i + N those whose surface buries this direction: see [`super::surface::Surface::buries`].
+#[inline(always)]
+pub fn buried<F: Lanes>(members: &Members, i: usize, wi: V3<F>) -> F::M {
+    let flat = (F::U::load(&members.kind[i..]) & F::U::splat(RAISED)).eq(F::U::splat(0));
+    flat & V3::<F>::load(&members.geometric, i).dot(wi).le(F::splat(0.0))
 }
 
 /// Adds the lanes of the mask to the suffixes.
@@ -131,10 +138,14 @@ impl<F: Lanes> Pairs<F> {
     #[inline(always)]
     fn new(members: &Members, i: usize, target: &Target<F>) -> Self {
         let to = target.point.sub(V3::load(&members.start, i));
+        let mut cos_member = V3::load(&members.normal, i).dot(to);
+        if members.smooth != 0 {
+            cos_member = F::select(buried(members, i, to), F::splat(0.0), cos_member);
+        }
         Pairs {
             to,
             distance2: to.dot(to).max(F::splat(LEAST_DISTANCE2)),
-            cos_member: V3::load(&members.normal, i).dot(to),
+            cos_member,
             cos_suffix: -target.normal.dot(to),
             own: F::U::load(&members.slot[i..]).eq(target.slot),
         }

@@ -20,7 +20,8 @@ pub struct Surface<F: Lanes> {
     pub outside: F::M,
     /// Interpolated normals: `ns` may differ from `ng`.
     pub smooth: F::M,
-    /// Bound of the error of `p` along `ng`; zero on curved shapes, whose rays know the one that they leave.
+    /// Bound of the error of `p` along `ng`; zero on curved shapes, whose rays know the one that they leave, unless
+    /// they lie in one plane with others.
     pub offset: F,
     /// Texture coordinates: u to the right, v upwards.
     pub u: F,
@@ -38,6 +39,19 @@ pub struct Surface<F: Lanes> {
 }
 
 impl<F: Lanes> Surface<F> {
+    /// Lanes that start above their triangle by more than rounding: where a smooth mesh bulges towards the viewer.
+    #[inline(always)]
+    pub fn raised(&self) -> F::M {
+        self.smooth & (self.offset + self.offset).lt(self.start.sub(self.p).dot(self.ng))
+    }
+
+    /// Lanes where `wi`, though above the shading normal's horizon, leads into the triangle at once: where a smooth
+    /// mesh is hollow. What lies there is behind a wall.
+    #[inline(always)]
+    pub fn buries(&self, wi: V3<F>) -> F::M {
+        self.smooth & wi.dot(self.ng).le(F::splat(0.0)) & !self.raised()
+    }
+
     /// The first where it is picked, else the second, whose primitive it is in both.
     #[inline(always)]
     pub fn select(pick: F::M, m: Self, s: Self) -> Self {

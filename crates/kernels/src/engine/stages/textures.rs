@@ -3,6 +3,7 @@
 
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
+use crate::sampling::sampler::unit;
 use crate::scene::TextureTable;
 use crate::srgb::SRGB_TO_LINEAR;
 
@@ -51,6 +52,17 @@ fn decode<F: Lanes>(word: F::U) -> F {
     F::gather(&*SRGB_TO_LINEAR, word & F::U::splat(0xff))
 }
 
+/// From here on a coordinate is known to an eighth and less.
+const FRACTIONS: f32 = 1_048_576.0;
+
+/// A number from 0 to 2 that anything about x decides.
+#[inline(always)]
+fn scrambled<F: Lanes>(x: F) -> F {
+    let bits = x.to_bits() * F::U::splat(0x9e37_79b1);
+    let bits = (bits ^ bits.shr::<15>()) * F::U::splat(0x85eb_ca6b);
+    unit::<F>(bits ^ bits.shr::<13>()) * F::splat(2.0)
+}
+
 /// The two texels along an axis and the weight of the second. Texel k covers [k, k + 1)/n, its centre is (k + 1/2)/n.
 #[inline(always)]
 fn axis<F: Lanes>(x: F, n: F::U, wrap: F::U, nearest: F::M) -> (F::U, F::U, F) {
@@ -59,6 +71,9 @@ fn axis<F: Lanes>(x: F, n: F::U, wrap: F::U, nearest: F::M) -> (F::U, F::U, F) {
     let size = F::from_int(n);
     let clamp = wrap.eq(one);
     let mirror = wrap.eq(F::U::splat(2));
+    // Towards the horizon of a plane a coordinate has no fraction any more: any, as likely as another.
+    let far = c(FRACTIONS).lt(x.abs()) & !clamp;
+    let x = if far.any() { F::select(far, scrambled(x), x) } else { x };
     // To [0, 1): a clamped coordinate by its value, a repeated one by its fraction, a mirrored one by a triangle wave.
     let clamped = x.max(c(0.0)).min(c(1.0));
     let fraction = x - floor(x);

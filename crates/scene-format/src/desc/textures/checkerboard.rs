@@ -6,7 +6,7 @@ use crate::words::scene_struct;
 
 scene_struct! {
     /// Squares of two colours, one square a unit of the mapped coordinates: `a` where the sum of their whole parts is
-    /// even. In space they are cubes.
+    /// even. In space they are cubes, and a face that lies where two meet is in the upper one.
     pub struct Checkerboard as "Checkerboard", "a checkerboard" {
         /// One colour.
         a: Albedo = [0.0; 3] => Rule::part();

@@ -67,10 +67,9 @@ fn of_film(film: &Film, args: &RenderArgs, desc: &SceneDesc, shell: &Shell) {
         ));
     }
     if film.counters.beyond > 0 {
-        shell.say(&format!(
-            "warning: {} samples were more than 6.7e7 times the brightest light and are left out",
-            film.counters.beyond
-        ));
+        let beyond = film.counters.beyond;
+        let samples = if beyond == 1 { "sample was" } else { "samples were" };
+        shell.say(&format!("warning: {beyond} {samples} more than 6.7e7 times the brightest light and left out",));
     }
 }
 

@@ -85,6 +85,7 @@ fn directions_have_the_density_that_is_reckoned_with() {
             batch.aimers.len = ITEM_PIXELS;
             for k in 0..ITEM_PIXELS {
                 (0..3).for_each(|axis| batch.aimers.normal[axis][k] = UP[axis]);
+                (0..3).for_each(|axis| batch.aimers.geometric[axis][k] = UP[axis]);
                 (0..3).for_each(|axis| batch.aimers.weight[axis][k] = 1.0);
                 batch.aimers.survival[k] = 1.0;
                 batch.aimers.kind[k] = 0;

@@ -20,7 +20,7 @@ mod perspective;
 mod stereo;
 
 use super::surface::Surface;
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{Camera, Projection};
 use stereo::Eyes;
@@ -154,10 +154,11 @@ impl<F: Lanes> View<F> {
     #[inline(always)]
     pub fn place(&self, point: V3<F>, mut lens: (F, F)) -> Place<F> {
         let c = F::splat;
-        let (mut which, mut middle) = (c(0.0), self.eye);
+        let (mut which, mut middle, mut within_reach) = (c(0.0), self.eye, F::M::from_bits(!0));
         if let Some(eyes) = &self.eyes {
             (which, lens.0) = eyes.choose(lens.0);
-            middle = self.eye.add(self.aside_for(eyes, which, point));
+            let (aside, reaches) = self.aside_for(eyes, which, point);
+            (middle, within_reach) = (self.eye.add(aside), reaches);
         }
         let eye = match self.projection {
             Projection::Orthographic => self.under(point),
@@ -183,7 +184,7 @@ impl<F: Lanes> View<F> {
         if let Some(eyes) = &self.eyes {
             at = eyes.in_whole(which, at);
         }
-        let (mut free, mut seen) = (distance, at.seen);
+        let (mut free, mut seen) = (distance, at.seen & within_reach);
         if self.near > 0.0 {
             free = distance - c(self.near) / cos;
             seen = seen & c(0.0).lt(free);

@@ -5,7 +5,7 @@
 //! go.
 
 use super::{Seen, View};
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Mask};
 use crate::math::{V3, sincos_turns};
 use crate::scene::{Camera, Projection};
 
@@ -94,19 +94,21 @@ impl<F: Lanes> View<F> {
         eyes.aside.scale(eye)
     }
 
-    /// From the middle to where an eye sees a point from. In a panorama the ray touches the circle of the eyes: with
-    /// the point's distances r to the right and f ahead, and s along the ray, r = a cos + s sin and f = s cos - a sin.
+    /// From the middle to where an eye sees a point from, and whether it does. In a panorama the ray touches the circle
+    /// of the eyes: with the point's distances r to the right and f ahead, and s along the ray, r = a cos + s sin and
+    /// f = s cos - a sin. No ray leads to what is above or below the circle.
     #[inline(always)]
-    pub(super) fn aside_for(&self, eyes: &Eyes<F>, eye: F, point: V3<F>) -> V3<F> {
+    pub(super) fn aside_for(&self, eyes: &Eyes<F>, eye: F, point: V3<F>) -> (V3<F>, F::M) {
         if let Projection::Panorama = self.projection {
             let a = eye * eyes.distance;
             let to = point.sub(self.eye);
             let (r, f) = (to.dot(self.right), to.dot(self.forward));
             let square = r.fma(r, f * f).max(F::splat(1e-30));
-            let s = (square - a * a).max(F::splat(0.0)).sqrt();
+            let (zero, s2) = (F::splat(0.0), square - a * a);
+            let s = s2.max(zero).sqrt();
             let (sin, cos) = ((s * r - a * f) / square, (s * f + a * r) / square);
-            return self.right.scale(cos).sub(self.forward.scale(sin)).scale(a);
+            return (self.right.scale(cos).sub(self.forward.scale(sin)).scale(a), zero.lt(s2));
         }
-        eyes.aside.scale(eye)
+        (eyes.aside.scale(eye), F::M::from_bits(!0))
     }
 }

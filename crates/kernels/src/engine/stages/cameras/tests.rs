@@ -157,6 +157,23 @@ fn what_is_not_seen() {
     assert!(falls(&cameras[7], -0.3));
 }
 
+/// The rays of a panorama of two eyes touch their circle: none leads to what is above or below it, 0.06 wide here.
+#[test]
+fn panoramas_of_two_eyes_do_not_see_what_is_above_their_circle() {
+    for camera in cameras().iter().filter(|camera| camera.stereo.is_some() && camera.projection == Projection::Panorama)
+    {
+        let view = View::<One>::new(camera, SIZE);
+        let up = camera.right.cross(camera.forward).normalize();
+        let falls = |aside: f64, lens: f32| {
+            let point = camera.eye + camera.forward.normalize() * aside - up;
+            view.place(splat(point), (One::splat(lens), One::splat(0.5))).seen.any()
+        };
+        for lens in [0.25, 0.75] {
+            assert!(falls(0.07, lens) && !falls(0.05, lens) && !falls(0.0, lens), "{lens}");
+        }
+    }
+}
+
 /// The points of a lens with blades fill a polygon evenly.
 #[test]
 fn lenses_with_blades_are_polygons() {

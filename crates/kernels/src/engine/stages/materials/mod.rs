@@ -305,7 +305,9 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
             let lobes = self.lobes(ns, wo, wi, cos_i.max(c(0.0)));
             let value = lobes.lambert + lobes.glossy;
             let density = p.fma(lobes.glossy_pdf, (c(1.0) - p) * lobes.lambert_pdf);
-            let usable = c(0.0).lt(cos_i) & c(0.0).lt(density);
+            // Seen from behind the shading normal, a half vector may lie behind wo: no density counts what it gives.
+            let counted = !from_lobe | c(0.0).lt(ns.dot(wo.add(wi)));
+            let usable = counted & c(0.0).lt(cos_i) & c(0.0).lt(density);
             let scale = F::select(usable, value * cos_i / F::select(usable, density, c(1.0)), c(0.0));
             weight = V3::select(self.blinn_phong, self.color.scale(scale), weight);
             pdf = F::select(self.blinn_phong, F::select(usable, density, c(0.0)), pdf);

@@ -85,7 +85,8 @@ fn color<F: Lanes>(table: &PatternTable, id: F::U, s: &At<F>, mask: F::M) -> V3<
     let mut t = F::splat(0.0);
     let on = of_kind::<F>(table, kind, kind::CHECKERBOARD, mask);
     if on.any() {
-        t = F::select(on, checkerboard::t(p), t);
+        let beside = At { p: s.p.scale(F::splat(1.0 + checkerboard::MOVED)), ..*s };
+        t = F::select(on, checkerboard::t(p, coordinates(table, id, place, &beside, on)), t);
     }
     let on = of_kind::<F>(table, kind, kind::LINES, mask);
     if on.any() {

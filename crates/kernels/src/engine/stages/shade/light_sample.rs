@@ -34,7 +34,7 @@ impl<F: Lanes> Stage<'_, F> {
         let from = lights::Start { p: s.start, on, parts: &tables.shapes.parts };
         let l = lights::sample(&tables.lights, &choice, from, u, v, lanes);
         let cos_i = s.ns.dot(l.wi);
-        let lit = lanes & bsdf.reaches(cos_i) & zero.lt(l.distance);
+        let lit = lanes & bsdf.reaches(cos_i) & zero.lt(l.distance) & !s.buries(l.wi);
         if !lit.any() {
             return;
         }

@@ -58,7 +58,7 @@ impl<F: Lanes> Stage<'_, F> {
             onward.wi = V3::select(rough, sample.wi, onward.wi);
             onward.weight = V3::select(rough, sample.weight, onward.weight);
             onward.pdf = F::select(rough, sample.pdf, onward.pdf);
-            onward.alive = onward.alive & !(rough & sample.pdf.le(zero));
+            onward.alive = onward.alive & !(rough & (sample.pdf.le(zero) | s.buries(sample.wi)));
         }
         if bsdf.mirror.any() {
             let (reflected, normal) = reflect_bent(s, *wo);

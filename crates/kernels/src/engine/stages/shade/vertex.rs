@@ -131,10 +131,10 @@ impl<'t, F: Lanes> Vertex<'t, F> {
     }
 }
 
-/// The primitive that a ray from this surface must not meet: the one it leaves. A ray that sinks below a smooth
-/// triangle starts above it (Hanika) and may well meet it.
+/// The primitive that a ray from this surface's start, which it does not bury, must not meet: the one it leaves. A ray
+/// that sinks below a smooth triangle starts above it (Hanika) and may well meet it.
 #[inline(always)]
 pub fn leaves<F: Lanes>(s: &Surface<F>, wi: V3<F>, primitive: F::U) -> F::U {
-    let sinks = s.smooth & wi.dot(s.ng).le(F::splat(0.0)) & !s.start.sub(s.p).dot(s.ng).le(s.offset);
+    let sinks = s.smooth & wi.dot(s.ng).le(F::splat(0.0));
     F::U::select(sinks, F::U::splat(NONE), primitive)
 }

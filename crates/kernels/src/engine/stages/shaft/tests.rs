@@ -120,7 +120,7 @@ fn what_is_no_number_leaves_all_boxes() {
 fn large(random: &mut Random) -> (LargeSphere, impl Fn([f32; 3]) -> f64 + use<>) {
     let p = vector(random, 1.0).map(f64::from);
     let n = glam::Vec3::from(vector(random, 1.0)).as_dvec3().normalize();
-    let k = 10f64.powf(f64::from(number(random)) * 2.2 - 1.4);
+    let k = 10f64.powf(f64::from(number(random)) * 1.6 - 1.95);
     let center = glam::DVec3::from(p) - n / k;
     let sphere =
         crate::scene::Sphere { center, radius: 1.0 / k, material: 0, object: 0, copy: 0, light: NONE, coordinates: 0 };
