@@ -20,7 +20,8 @@ impl Frame {
     /// is the origin (a single far or huge object does not move it), and the largest distance of a mark or the eye from
     /// it is about one. Where a mark would be seen too coarsely so, the eye is the origin, and the distance to
     /// `look_at` about one.
-    pub fn choose(eye: DVec3, look_at: DVec3, marks: &[DVec3]) -> Self {
+    /// `beside`: marks of what says nothing of where the scene is, planes and lamps, but is to be fine, too.
+    pub fn choose(eye: DVec3, look_at: DVec3, marks: &[DVec3], beside: &[DVec3]) -> Self {
         let median = |axis: usize| {
             let mut values: Vec<f64> = marks.iter().map(|m| m[axis]).collect();
             values.sort_unstable_by(f64::total_cmp);
@@ -32,7 +33,7 @@ impl Frame {
         // stars about a ship, only the eye will do.
         let looks = (look_at - eye).length();
         let coarse = |mark: &DVec3| (*mark - middle).length() > COARSE * (*mark - eye).length().max(1e-3 * looks);
-        let near_some = looks > 0.0 && marks.iter().any(coarse);
+        let near_some = looks > 0.0 && marks.iter().chain(beside).any(coarse);
         let centre = if near_some { eye } else { middle };
         let mut distances: Vec<f64> = marks.iter().map(|m| (*m - centre).length()).collect();
         distances.sort_unstable_by(f64::total_cmp);

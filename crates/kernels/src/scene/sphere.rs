@@ -81,7 +81,7 @@ pub struct SphereTable {
     pub in_tree: usize,
 }
 
-/// Up to so many small spheres are tested by every ray over lanes; more of them go into the tree.
+/// Up to so many spheres below [`SMALL`] are tested by every ray over lanes; more of them go into the tree.
 const FEW: usize = 24;
 
 /// Radius from which a sphere may be large, in render space.

@@ -2,6 +2,7 @@
 
 use super::{Like, Objects, camera, meshes, radiances, unmeant};
 use glam::DVec3;
+use scene_format::desc::Light;
 use scene_format::{Diagnostics, SceneDesc};
 use tracer_kernels::scene::{Camera, Frame};
 
@@ -24,7 +25,8 @@ impl Measured {
     ) -> (Self, Vec<Vec<[f64; 3]>>) {
         let eye = DVec3::from(desc.camera.position.value);
         let look_at = DVec3::from(desc.camera.look_at.value);
-        let frame = like.frame.unwrap_or_else(|| Frame::choose(eye, look_at, &marks(objects, look_at)));
+        let chosen = || Frame::choose(eye, look_at, &marks(objects, look_at), &beside(desc, objects, look_at));
+        let frame = like.frame.unwrap_or_else(chosen);
         let camera = camera::camera(desc, &frame);
         unmeant::far_view(desc, &camera, &frame, diagnostics);
         let Objects { loaded, assigned, curved, solids, placed } = objects;
@@ -46,4 +48,16 @@ fn marks(objects: &Objects, look_at: DVec3) -> Vec<DVec3> {
     let of_solids = objects.solids.iter().flat_map(|object| object.marks(look_at));
     let marks: Vec<DVec3> = of(false).chain(of_solids).chain(objects.placed.marks(look_at)).collect();
     if marks.is_empty() { of(true).collect() } else { marks }
+}
+
+/// Points of planes and lamps near what the camera looks at.
+fn beside(desc: &SceneDesc, objects: &Objects, look_at: DVec3) -> Vec<DVec3> {
+    let endless = objects.curved.iter().filter(|object| object.is_endless());
+    let lamps = desc.lights.iter().map(|light| match &light.value {
+        Light::SphereLight(lamp) => {
+            let center = DVec3::from(lamp.center.value);
+            center + (look_at - center).clamp_length_max(lamp.radius.value)
+        }
+    });
+    endless.flat_map(|object| object.marks(look_at)).chain(lamps).collect()
 }

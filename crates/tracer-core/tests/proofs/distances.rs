@@ -44,7 +44,7 @@ fn within_a_lamp_of_any_size_all_is_white() {
             let desc = described(&format!(
                 "Scene(camera: Camera(position: (0, 2, 3), look_at: (0, 0.5, 0), fov: 50), \
                  image: Image(width: 32, height: 32), render: Render(max_bounces: 100), \
-                 lights: [SphereLight(center: (0, 0, 0), radius: {radius}, radiance: 1)], \
+                 lights: [SphereLight(center: (-10, 3, 2), radius: {radius}, radiance: 1)], \
                  objects: [Rectangle(size: 6, material: Diffuse(albedo: 1)), \
                  Sphere(center: (0, 0.7, 0), radius: 0.6, material: {material})])"
             ));

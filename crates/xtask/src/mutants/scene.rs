@@ -426,8 +426,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "faces-between-cells-are-of-both",
         file: "crates/kernels/src/engine/stages/patterns/checkerboard.rs",
-        find: "let rounding = rounding.min(F::splat(0.01));",
-        replace: "let rounding = rounding.min(F::splat(0.0));",
+        find: ".fma(F::splat(1.0 / 4_194_304.0), of_points).min(F::splat(0.01));",
+        replace: ".fma(F::splat(1.0 / 4_194_304.0), of_points).min(F::splat(0.0));",
         caught_by: proofs(&["distances::faces_where_cells_meet_are_of_one_cell"]),
     },
     Mutant {

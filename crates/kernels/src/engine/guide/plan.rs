@@ -252,10 +252,9 @@ impl PairTable {
             table.area.push((area * directions) as f32);
             table.cap.push(pair.cap as f32);
             table.caster_radius2.push((caster.radius * caster.radius * 1.000_01) as f32);
-            let bounds = light.bounds(&scene.spheres);
             let start = match pair.aim {
                 aim::EVERYWHERE => Start::Light,
-                other => ways.start(bounds, caster, other == aim::INSIDE),
+                other => ways.start(light, caster, other == aim::INSIDE),
             };
             table.approach.push(if let Start::Before(way) = start { way as f32 } else { f32::INFINITY });
             table.any_far |= matches!(start, Start::Before(_));

@@ -117,12 +117,15 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
             let share = share_towards(scene, light, (point, normal.neg()), zero, sent);
             (flux, radiance) = (flux.mul(share), radiance.mul(share));
         }
+        let mut leaves = F::U::gather(&pairs.light_primitive, pair);
         if pairs.any_far {
             let approach = F::gather(&pairs.approach, pair);
             let distance = distance2.sqrt();
-            let aside = towards.to_world(V3(in_cone.0, in_cone.1, zero)).scale(distance);
+            let aside = towards.to_world(V3(in_cone.0, in_cone.1, zero)).scale(distance / in_cone.2);
             let before = direction.mad(-approach, V3::gather_columns(&pairs.caster_center, pair).add(aside));
-            point = V3::select(approach.lt(distance), before, point);
+            let on_the_way = approach.lt(distance);
+            point = V3::select(on_the_way, before, point);
+            leaves = F::U::select(on_the_way, F::U::splat(NONE), leaves);
         }
         let k = paths.len;
         point.compress(sent, &mut paths.origin, k);
@@ -134,7 +137,7 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
         } else {
             flux.compress(sent, &mut paths.throughput, k);
         }
-        F::U::gather(&pairs.light_primitive, pair).compress(sent, &mut paths.from_primitive[k..]);
+        leaves.compress(sent, &mut paths.from_primitive[k..]);
         F::U::splat(NONE).compress(sent, &mut paths.from_instance[k..]);
         lane_numbers::<F>(i).compress(sent, &mut paths.slot[k..]);
         paths.len += sent.count();
