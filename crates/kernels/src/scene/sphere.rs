@@ -104,7 +104,7 @@ const SMALL: f64 = 0.125;
 /// tree; more of them go into it, and all small ones.
 const SOME: usize = 24;
 
-/// Which spheres hang in the tree.
+/// Which spheres hang in the tree: small ones, and, not without them, those that are neither large nor small.
 #[derive(Clone, Copy)]
 struct InTree {
     small: bool,
@@ -127,7 +127,7 @@ impl SphereTable {
     /// Puts the spheres in the order of their primitive ids: those that hang in the tree first.
     pub fn order(spheres: &mut [Sphere]) {
         let in_tree = InTree::of(spheres);
-        if in_tree.small || in_tree.others {
+        if in_tree.small {
             spheres.sort_by_key(|sphere| !in_tree.holds(sphere));
         }
     }
