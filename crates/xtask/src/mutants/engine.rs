@@ -52,11 +52,11 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: kernel_units(&["engine::stages::materials"]),
     },
     Mutant {
-        name: "hollow-meshes-let-light-in",
+        name: "raised-starts-bury-what-sinks",
         file: "crates/kernels/src/engine/stages/surface.rs",
         find: "self.smooth & wi.dot(self.ng).le(F::splat(0.0)) & !self.raised()",
-        replace: "wi.dot(wi).le(F::splat(0.0))",
-        caught_by: proofs(&["surfaces::smooth_meshes_are_dark_within"]),
+        replace: "self.smooth & wi.dot(self.ng).le(F::splat(0.0))",
+        caught_by: proofs(&["surfaces::the_terminator_of_a_low_poly_ball_is_smooth"]),
     },
     Mutant {
         name: "panoramas-see-above-the-circle-of-the-eyes",

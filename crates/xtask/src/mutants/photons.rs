@@ -161,4 +161,11 @@ pub const MUTANTS: &[Mutant] = &[
         replace: "if let Start::Before(way) = start { f32::INFINITY.max(way as f32) } else { f32::INFINITY }",
         caught_by: proofs(&["distances::the_sun_may_be_as_far_as_it_is"]),
     },
+    Mutant {
+        name: "lamps-let-far-light-through",
+        file: "crates/kernels/src/engine/guide/approach.rs",
+        find: ".filter(|(k, _)| *k != own)",
+        replace: ".filter(|(k, _)| *k != own && scene.spheres.get(*k).is_none_or(|s| s.light == u32::MAX))",
+        caught_by: proofs(&["distances::lamps_stand_in_the_way_of_the_sun"]),
+    },
 ];

@@ -414,6 +414,13 @@ pub const MUTANTS: &[Mutant] = &[
         file: SPHERE,
         find: "const LARGE: f64 = 2.0;",
         replace: "const LARGE: f64 = 0.125;",
+        caught_by: proofs(&["distances::within_a_lamp_of_any_size_all_is_white"]),
+    },
+    Mutant {
+        name: "large-spheres-are-large-from-afar",
+        file: SPHERE,
+        find: "const NEAR: f64 = 16.0;",
+        replace: "const NEAR: f64 = 1e9;",
         caught_by: proofs(&["distances::lamps_are_as_large_as_they_are"]),
     },
     Mutant {

@@ -165,7 +165,8 @@ fn panoramas_of_two_eyes_do_not_see_what_is_above_their_circle() {
         let view = View::<One>::new(camera, SIZE);
         let up = camera.right.cross(camera.forward).normalize();
         let falls = |aside: f64, lens: f32| {
-            let point = camera.eye + camera.forward.normalize() * aside - up;
+            let ahead = 0.6 * camera.forward.normalize() + 0.8 * camera.right.normalize();
+            let point = camera.eye + ahead * aside - up;
             view.place(splat(point), (One::splat(lens), One::splat(0.5))).seen.any()
         };
         for lens in [0.25, 0.75] {
