@@ -1,7 +1,7 @@
 //! Values that stand among fields without the names of theirs: what the name is, where the value tells it.
 
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Edit};
+use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::read::field_of;
 
 /// How far back the bracket is looked for that a value stands in.
@@ -10,6 +10,10 @@ const FAR: usize = 1000;
 /// Says which field is meant: a material is the `material`, a transform stands in the list of them.
 pub(crate) fn name_values(text: &str, faults: &mut [Diagnostic]) {
     for fault in faults {
+        if fault.code == codes::MIXED_FIELDS && fault.edit.is_none() && fault.span.source == 0 {
+            name_first(text, fault);
+            continue;
+        }
         let is_nameless = fault.code == codes::MISSING_NAME && fault.edit.is_none() && fault.span.source == 0;
         let place = fault.span.start as usize..fault.span.end as usize;
         let Some(value) = text.get(place.clone()).filter(|_| is_nameless) else { continue };
@@ -21,6 +25,17 @@ pub(crate) fn name_values(text: &str, faults: &mut [Diagnostic]) {
         fault.hint = format!("write `{mended}`");
         fault.edit = Some(Edit { span: fault.span, replacement: mended });
     }
+}
+
+/// The same of one before others that have names: `Scene(Camera(..), objects: [..])`.
+fn name_first(text: &str, fault: &mut Diagnostic) {
+    let Some(span) = fault.labels.first().map(|label| label.span) else { return };
+    // A list would have to end somewhere, too.
+    let value = text.get(span.start as usize..).and_then(field_of).filter(|(field, _)| *field != "transform");
+    let Some((field, _)) = value else { return };
+    let kind = text[span.start as usize..].split('(').next().unwrap_or_default().trim_end();
+    fault.hint = format!("write `{field}: {kind}(..)`");
+    fault.edit = Some(Edit { span: Span { end: span.start, ..span }, replacement: format!("{field}: ") });
 }
 
 /// Whether all brackets of a value are closed in it: one of several lines is told by its first.

@@ -1,15 +1,19 @@
 //! Memory stays in proportion to the file: at its peak within ten times the file and 64 MB, whatever the file holds.
 //!
-//! One test alone in its process, because the count is that of the whole process.
+//! Each thread counts for itself: a file is read by one.
+
+#[path = "common/threads.rs"]
+mod threads;
 
 use scene_format::Syntax::{self, Json, Ron, Toml};
 use scene_format::desc::{Object, Sphere};
 use scene_format::diagnostic::Spanned;
 use scene_format::load_bytes;
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::time::Instant;
+use threads::for_all;
 
 /// Counts the bytes in use and their peak.
 struct Counting;
@@ -20,15 +24,22 @@ fn taken(bytes: usize) -> usize {
     (bytes + 8).next_multiple_of(16).max(32)
 }
 
-static IN_USE: AtomicUsize = AtomicUsize::new(0);
-static PEAK: AtomicUsize = AtomicUsize::new(0);
+thread_local! {
+    /// What this thread has taken, less what it gave back; below zero where another one had taken it.
+    static IN_USE: Cell<isize> = const { Cell::new(0) };
+    static PEAK: Cell<isize> = const { Cell::new(0) };
+}
 
 /// From this many bytes on glibc takes a piece from the system by itself, and moves it without a copy.
 const MOVED: usize = 128 << 10;
 
 fn count_more(bytes: usize) {
-    let bytes = taken(bytes);
-    PEAK.fetch_max(IN_USE.fetch_add(bytes, Relaxed) + bytes, Relaxed);
+    IN_USE.set(IN_USE.get() + taken(bytes) as isize);
+    PEAK.set(PEAK.get().max(IN_USE.get()));
+}
+
+fn count_less(bytes: usize) {
+    IN_USE.set(IN_USE.get() - taken(bytes) as isize);
 }
 
 // SAFETY: every call goes to the system's allocator unchanged.
@@ -46,7 +57,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        IN_USE.fetch_sub(taken(layout.size()), Relaxed);
+        count_less(layout.size());
         // SAFETY: the caller keeps the contract of `dealloc`.
         unsafe { System.dealloc(pointer, layout) }
     }
@@ -55,9 +66,9 @@ unsafe impl GlobalAlloc for Counting {
         // What is small is copied; large pieces grow in place, the system putting their pages elsewhere.
         if layout.size() < MOVED {
             count_more(size);
-            IN_USE.fetch_sub(taken(layout.size()), Relaxed);
+            count_less(layout.size());
         } else {
-            IN_USE.fetch_sub(taken(layout.size()), Relaxed);
+            count_less(layout.size());
             count_more(size);
         }
         // SAFETY: the caller keeps the contract of `realloc`.
@@ -226,10 +237,10 @@ fn file(size: usize, head: &str, piece: &str, tail: &str) -> Vec<u8> {
 
 /// The peak while a file is read, its own bytes included; whether it is right.
 fn read(syntax: Syntax, bytes: Vec<u8>) -> (usize, bool) {
-    let before = IN_USE.load(Relaxed) - taken(bytes.capacity());
-    PEAK.store(before, Relaxed);
+    let before = IN_USE.get() - taken(bytes.capacity()) as isize;
+    PEAK.set(before);
     let right = load_bytes("dense", bytes, Some(syntax), Path::new(""), &[]).is_ok();
-    (PEAK.load(Relaxed) - before, right)
+    ((PEAK.get() - before) as usize, right)
 }
 
 /// What a repetition makes: a million spheres take the memory of a million spheres, whatever their expressions are.
@@ -255,9 +266,9 @@ fn memory_is_in_proportion_to_the_file() {
         std::env::var("SCENE_MEMORY").ok().map(|text| text.parse::<usize>().expect("a number of megabytes"));
     let size = megabytes.map_or(SIZE, |megabytes| megabytes << 20);
     let beyond = if megabytes.is_some() { 64 << 20 } else { BEYOND };
-    let mut too_much = Vec::new();
-    let wrong = WRONG.iter().map(|case| (case, false));
-    for (&(syntax, head, piece, tail), should_be_right) in wrong.chain(RIGHT.iter().map(|case| (case, true))) {
+    let wrong = WRONG.iter().map(|case| (*case, false));
+    let cases: Vec<_> = wrong.chain(RIGHT.iter().map(|case| (*case, true))).collect();
+    let too_much = for_all(&cases, |&((syntax, head, piece, tail), should_be_right)| {
         let bytes = file(size, head, piece, tail);
         let length = bytes.len();
         let start = Instant::now();
@@ -266,9 +277,8 @@ fn memory_is_in_proportion_to_the_file() {
         let line = format!("{} {head}{piece:?}{tail}: {times:.1} times, {speed:.0} MB/s", syntax.name());
         println!("{line}");
         assert_eq!(right, should_be_right, "{line}");
-        if peak > 10 * length + beyond {
-            too_much.push(line);
-        }
-    }
+        (peak > 10 * length + beyond).then_some(line)
+    });
+    let too_much: Vec<String> = too_much.into_iter().flatten().collect();
     assert!(too_much.is_empty(), "more than ten times the file and {beyond} bytes:\n{}", too_much.join("\n"));
 }

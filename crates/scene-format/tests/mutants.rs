@@ -4,6 +4,7 @@
 
 mod common;
 
+use common::threads::for_all;
 use common::{FULL, Random};
 use scene_format::render::{Style, json_lines, text};
 use scene_format::{Defaults, LoadError, Override, Syntax, convert, load_bytes, to_text};
@@ -142,11 +143,19 @@ fn mutants_neither_panic_nor_hang() {
     let count = std::env::var("SCENE_MUTANTS").ok().and_then(|count| count.parse().ok()).unwrap_or(4000);
     let mut random = Random(5);
     let (mut right, mut slowest) = (0, (Duration::ZERO, 0));
-    for index in 0..count {
-        let (source, syntax) = FULL[index % FULL.len()];
-        let mutant = mutate(source, &mut random);
-        let took = soonest(|| right += usize::from(exercise(mutant.clone(), syntax, &[])));
-        slowest = slowest.max((took, index));
+    // In pieces: a hundred thousand of them are some hundred megabytes.
+    for first in (0..count).step_by(1000) {
+        let made = (first..count.min(first + 1000)).map(|index| {
+            let (source, syntax) = FULL[index % FULL.len()];
+            (index, syntax, mutate(source, &mut random))
+        });
+        let tried = for_all(&made.collect::<Vec<_>>(), |(index, syntax, mutant)| {
+            let mut is_right = false;
+            let took = soonest(|| is_right = exercise(mutant.clone(), *syntax, &[]));
+            (is_right, (took, *index))
+        });
+        right += tried.iter().filter(|(is_right, _)| *is_right).count();
+        slowest = tried.iter().map(|(_, took)| *took).fold(slowest, Ord::max);
     }
     // Most mutants are wrong, but a test that never gets beyond the syntax would prove little.
     assert!(right > count / 100, "{right} of {count} are right");
@@ -167,12 +176,14 @@ fn mutated_set_arguments_neither_panic_nor_hang() {
         "lights[0].SphereLight.center=[1, 2, 3]",
     ];
     let mut random = Random(6);
-    for index in 0..3000 {
+    let made = (0..3000).map(|index| {
         let argument: &str = ARGUMENTS[random.below(ARGUMENTS.len())];
-        let argument = String::from_utf8_lossy(&mutate(argument, &mut random)).into_owned();
-        let (source, syntax) = FULL[index % FULL.len()];
-        exercise(source.as_bytes().to_vec(), syntax, &[Override::from(argument), Override::from("camera.fov=50")]);
-    }
+        (FULL[index % FULL.len()], String::from_utf8_lossy(&mutate(argument, &mut random)).into_owned())
+    });
+    for_all(&made.collect::<Vec<_>>(), |((source, syntax), argument)| {
+        let overrides = [Override::from(argument.clone()), Override::from("camera.fov=50")];
+        exercise(source.as_bytes().to_vec(), *syntax, &overrides)
+    });
 }
 
 /// Files made to take quadratic time, or to fill the stack or the memory, of a reader that is not careful.
@@ -185,7 +196,7 @@ fn hostile_files_take_no_longer_than_others() {
         "[1],", "(a:", "[[a]]\n", "[a.b]\n", "a=1\n", "{a=", "a.b.", "\\", "\n", "\r", "é", "\"\"\"", "r#", "(]", "[)",
         "\"a\":1,", "Sphere(", "x: 1, ", "[a]\n", "\"a\": {", "{\"a\":[", "\\u0", "\u{a0}",
     ];
-    for (syntax, head) in [
+    let heads = [
         (Syntax::Ron, ""),
         (Syntax::Ron, "Scene(objects: ["),
         (Syntax::Ron, "Scene(materials: {"),
@@ -198,16 +209,16 @@ fn hostile_files_take_no_longer_than_others() {
         (Syntax::Json, "{\"objects\": ["),
         (Syntax::Json, "{\"materials\": {"),
         (Syntax::Json, "{\"a\": "),
-    ] {
-        for piece in pieces {
-            let text = format!("{head}{}", piece.repeat(SIZE / piece.len()));
-            let took = soonest(|| {
-                let loaded = load_bytes("hostile", text.clone().into_bytes(), Some(syntax), Path::new(""), &[]);
-                assert!(loaded.is_err(), "{head}{piece:?}");
-            });
-            assert!(took < Duration::from_secs(1), "{head}{piece:?}.. took {took:?}");
-        }
-    }
+    ];
+    let all = heads.iter().flat_map(|head| pieces.map(|piece| (*head, piece)));
+    for_all(&all.collect::<Vec<_>>(), |&((syntax, head), piece)| {
+        let text = format!("{head}{}", piece.repeat(SIZE / piece.len()));
+        let took = soonest(|| {
+            let loaded = load_bytes("hostile", text.clone().into_bytes(), Some(syntax), Path::new(""), &[]);
+            assert!(loaded.is_err(), "{head}{piece:?}");
+        });
+        assert!(took < Duration::from_secs(1), "{head}{piece:?}.. took {took:?}");
+    });
     // Many different names, many wrong uses of them.
     let names: String = (0..20_000).map(|index| format!("\"m{index}\": Mirror(), ")).collect();
     let uses: String =

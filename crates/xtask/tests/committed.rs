@@ -4,6 +4,7 @@ use std::path::Path;
 use xtask::File;
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn cat() {
     assert_committed(xtask::cat::files().unwrap(), "cat");
 }

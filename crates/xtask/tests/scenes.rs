@@ -1,5 +1,6 @@
 //! The scenes in `scenes/` are valid, and the files they name are there and right.
 
+use rayon::prelude::*;
 use scene_format::{LoadError, SceneDesc, codes, render};
 use std::path::{Path, PathBuf};
 
@@ -36,7 +37,7 @@ fn all_scenes_compile() {
     let scenes = scenes();
     // Nine figures, two of them in TOML too, a gallery, a cookbook.
     assert!(scenes.len() >= 11 + 8 + 19, "{scenes:?}");
-    for path in scenes {
+    scenes.into_par_iter().for_each(|path| {
         let scene = match tracer_core::compile(&load(&path)) {
             Ok(scene) => scene,
             Err(error) => panic!("{}: {error}", path.display()),
@@ -46,7 +47,7 @@ fn all_scenes_compile() {
         let figure = path.parent().is_some_and(|folder| folder.ends_with("scenes"));
         let odd: Vec<_> = scene.warnings.iter().filter(|w| !figure || w.code != codes::REFLECTS_MORE).collect();
         assert!(odd.is_empty(), "{}: {odd:?}", path.display());
-    }
+    });
 }
 
 #[test]

@@ -193,6 +193,7 @@ fn resident() -> u64 {
 /// film of these 300x200 pixels has 7 MB; one kept of each save would be 2 GB.
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn hundreds_of_saves_leave_no_memory_behind() {
     let text = SCENE.replace("width: 24, height: 16", "width: 300, height: 200").replace("samples: 4", "samples: 1");
     let sandbox = Sandbox::new(&text);

@@ -47,7 +47,8 @@ codes! {
     /// )
     /// ```
     LIGHT_SHUT_IN "W0307" "a light is shut in";
-    /// The rendered picture is black: no light reaches what the camera sees.
+    /// The rendered picture is black: no light reaches what the camera sees, or so little that 99 of 100 pixels can
+    /// hardly be told from black. The message says which `exposure` would show it.
     ALL_BLACK "W0308" "the picture is black";
     /// The camera looks past all objects: all of them lie beside the view, or behind it, or the rendered picture shows
     /// nothing but the background.
@@ -60,8 +61,8 @@ codes! {
     /// )
     /// ```
     NOTHING_IN_VIEW "W0309" "nothing is in view";
-    /// `Transparent` on a shape that has no inside, a disk, a rectangle, a plane or a cylinder without caps: light is
-    /// bent there once, and never back.
+    /// `Transparent` on a shape that has no inside, a disk, a rectangle, a plane, a cylinder without caps or a mesh
+    /// with holes: light is bent there once, and never back.
     ///
     /// ```text
     /// Scene(background: 1, objects: [Disk(material: Transparent(ior: 1.5))])
@@ -139,8 +140,8 @@ codes! {
     /// Scene(background: (135, 206, 235), objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     OTHER_SCALE "W0317" "a number on another scale";
-    /// The rendered picture is white: every pixel is more than twice as bright as white in all channels. Take a darker
-    /// background or lights, or a lower `exposure`.
+    /// The rendered picture is white: three quarters of its pixels and more are twice as bright as white in all
+    /// channels. Take a darker background or lights, or a lower `exposure`; the message says which.
     ALL_WHITE "W0318" "the picture is white";
     /// A `Rectangle` or `Box` lies in one plane with others that are seen in its place, all of it: a rug at the
     /// height of the floor. Of surfaces in one plane what shines is seen, then what lets no light through, then what

@@ -156,6 +156,24 @@ const WORDS: &[(&[&str], &str)] = &[
         "copies of an object are its `placements`: a list, a file, Grid(..), Ring(..) or Scatter(..)",
     ),
     (
+        &["absorption", "absorb", "beer", "beer-lambert", "extinction", "attenuation"],
+        "glass takes nothing on the way through: it is coloured by its `transmittance`, once at each surface",
+    ),
+    (
+        &["dispersion", "abbe", "rainbow", "spectrum", "spectral", "wavelength"],
+        "there are no wavelengths: glass refracts red, green and blue alike",
+    ),
+    (
+        &["thin", "thin_walled", "thinwalled", "soap", "bubble"],
+        "what is thin and of glass is a thin Box of Transparent(ior: 1.5), or one Sphere of it in another; what is \
+         matt may have no thickness: Rectangle, Disk",
+    ),
+    (
+        &["lens", "magnifier", "loupe"],
+        "a lens is the Intersection of two Spheres, of Transparent(ior: 1.5); that of the camera is an effect: \
+         `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`",
+    ),
+    (
         &["f_stop", "fstop", "f-stop", "fnumber", "bokeh"],
         "the `aperture` of a ThinLens is its focal length over the f-number",
     ),

@@ -489,7 +489,8 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
             "surfaces have no bumps: they need to be in the mesh; `shading: Smooth` rounds a mesh"
         }
         "bump" | "normal_map" | "displacement" => "surfaces have no bumps: they need to be in the mesh",
-        "roughness" | "glossiness" | "gloss" | "smoothness" | "metallic" | "metalness" | "clearcoat" | "anisotropy"
+        "rough" | "roughness" | "glossiness" | "gloss" | "smoothness" | "metallic" | "metalness" | "clearcoat"
+        | "anisotropy"
             if surface || def.name == "Scene" =>
         {
             "how rough a gloss is is the `exponent` of BlinnPhong, about 2 / roughness^4: 10 is dull, 100000 nearly a \

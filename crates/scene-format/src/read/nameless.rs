@@ -2,7 +2,7 @@
 
 use super::{Reader, field_list, field_words, hinted};
 use crate::codes;
-use crate::desc::{Material, Object, PlacementPattern, TransformWords};
+use crate::desc::{Material, Object, PlacementPattern, Scene, TransformWords};
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{self, StructDef};
 use crate::syntax::Syntax;
@@ -20,7 +20,11 @@ pub(crate) fn field_of(value: &str) -> Option<(&'static str, String)> {
         _ if PlacementPattern::DEF.variant(kind).is_some() => {
             return Some(("placements", format!("placements: {value}")));
         }
-        _ => return None,
+        _ => {
+            let group =
+                Scene::DEF.fields.iter().find(|field| field.kind.group().is_some_and(|def| def.name == kind))?;
+            return Some((group.name, format!("{}: {value}", group.name)));
+        }
     };
     Some((field, format!("{field}: [{value}]")))
 }

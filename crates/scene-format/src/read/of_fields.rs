@@ -25,9 +25,19 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
             "glass takes nothing on the way through: it is coloured by `transmittance`, once at each surface"
         }
         "priority" if has("ior") => "which of two glasses holds where they meet needs no number: leave it out",
-        "roughness" | "glossiness" | "smoothness" if def.name == "Transparent" => {
+        "dispersion" | "abbe" | "abbe_number" | "abbe_v" | "vd" | "cauchy" | "cauchy_a" | "cauchy_b" | "sellmeier"
+        | "spectral"
+            if has("ior") =>
+        {
+            "there are no wavelengths: red, green and blue are refracted alike, so leave it out"
+        }
+        "thin" | "thin_walled" | "thinwalled" | "thin_film" if def.name == "Transparent" => {
+            "a pane is a thin `Box` of Transparent(ior: 1.5), which shifts what is behind it by less than its thickness"
+        }
+        "rough" | "roughness" | "glossiness" | "smoothness" if def.name == "Transparent" => {
             "glass is smooth here: Transparent(ior: 1.5)"
         }
+        "rough" if def.name == "Conductor" => "how rough a metal is is its `roughness`",
         "alpha" | "alpha_x" | "alpha_y" if def.name == "Conductor" => "`roughness` is the root of alpha: 0.3 for 0.09",
         "anisotropy" | "anisotropic" if def.name == "Conductor" => "metal is as rough in all directions: `roughness`",
         "mask" | "normaltexture" | "opacity_mask" if has("albedo") || has("material") => {
@@ -58,6 +68,9 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
             "copies are its `placements`, Grid(..), Ring(..) or Scatter(..), or made by `Repeat(count: 8, items: [..])`"
         }
         "parent" if has("material") => "what is moved together stands in a `Group(objects: [..], transform: [..])`",
+        "engine" | "renderer" | "integrator_type" if def.name == "Scene" => {
+            "how light is followed is `render: Render(integrator: Full)`, which it is without the word, or Path"
+        }
         "title" | "description" | "author" if def.name == "Scene" => {
             "leave it out; a comment has room for it, but in JSON"
         }

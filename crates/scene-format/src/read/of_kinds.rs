@@ -8,7 +8,12 @@ use crate::schema::EnumDef;
 /// Objects of other programs.
 pub(super) const OBJECTS: Hints = &[
     (
-        &["pyramid", "tetrahedron", "wedge", "prism", "loft"],
+        &["prism", "wedge", "triangularprism"],
+        "what has the same outline all along is an `Extrude`: Extrude(outline: [[(0, 0), (1, 0), (0.5, 0.87)]], depth: \
+         2)",
+    ),
+    (
+        &["pyramid", "tetrahedron", "loft"],
         "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`",
     ),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
@@ -57,10 +62,7 @@ pub(super) const OBJECTS: Hints = &[
     (&["line", "lines", "segment", "polyline"], "a line has a thickness: `Tube(points: [..], radius: 0.02)`"),
     (&["point"], "a point is a small `Sphere`; a light without size is a small `SphereLight`"),
     (&["camera"], "the camera is the scene's `camera`, beside `objects`"),
-    (
-        &["volume", "fog", "medium", "smoke", "hair", "particles", "points", "metaballs", "sdf"],
-        "there is no such thing: surfaces only",
-    ),
+    (&["volume", "fog", "medium", "smoke", "hair", "particles", "points"], "there is no such thing: surfaces only"),
 ];
 
 /// Materials of other programs.
@@ -212,6 +214,32 @@ pub(super) const TRANSFORMS: Hints = &[
 
 const AMONG_OBJECTS: Hints = &[
     (
+        &["lens", "biconvex", "convexlens", "sphericallens"],
+        "a lens is what two balls have in common: Intersection(objects: [Sphere(center: (0, 0, -4), radius: 4.1), \
+         Sphere(center: (0, 0, 4), radius: 4.1)], material: Transparent(ior: 1.5)); a hollow one a Difference",
+    ),
+    (
+        &[
+            "paraboloid",
+            "paraboloidmirror",
+            "parabola",
+            "parabolic",
+            "parabolicmirror",
+            "parabolicreflector",
+            "reflector",
+            "hyperboloid",
+            "bowl",
+            "dish",
+        ],
+        "what is round about an axis is a `Lathe`: its `profile` are points on the curve, (distance from the axis, \
+         height)",
+    ),
+    (
+        &["function", "functionsurface", "graph", "plot", "surfaceplot", "parametric", "parametricsurface"],
+        "a surface over x and z is a `HeightField`, whose heights are a picture's; others are meshes: name an OBJ, \
+         OFF, PLY, STL, glTF or GLB file in a `Mesh`",
+    ),
+    (
         &["emitter", "emission", "lightsource", "glow", "lamplight"],
         "a lamp is an object that shines: `Rectangle(size: 1, material: Emissive(radiance: 5))`",
     ),
@@ -221,9 +249,19 @@ const AMONG_OBJECTS: Hints = &[
     ),
     (&["perspective", "thinlens", "sensor", "pinhole"], "the camera is the scene's `camera`, beside `objects`"),
     (
-        &["julia", "fractal", "blob", "superellipsoid", "isosurface", "quadric", "loopsubdiv"],
-        "make a mesh of it: \
-     name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`",
+        &[
+            "julia",
+            "fractal",
+            "blob",
+            "metaball",
+            "metaballs",
+            "sdf",
+            "superellipsoid",
+            "isosurface",
+            "quadric",
+            "loopsubdiv",
+        ],
+        "make a mesh of it: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`",
     ),
 ];
 

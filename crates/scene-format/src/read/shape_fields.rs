@@ -35,12 +35,8 @@ const ROUND: [&str; 12] = [
 
 /// What is said of fields that shapes do not have.
 pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<&'static str> {
-    let shape = def.field("material").is_some() && def.field("transform").is_some();
-    if !shape {
-        return None;
-    }
+    let (Some(_), Some(_)) = (def.field("material"), def.field("transform")) else { return None };
     let ron = syntax == Syntax::Ron;
-    let joined = def.field("curve").is_some();
     let ends = def.field("from").is_some() && def.field("to").is_some();
     let side = matches!(name, "height" | "width" | "depth" | "length" | "thickness");
     Some(match (name, def.name) {
@@ -69,7 +65,7 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
             "handles stand among the `points` with `curve: Bezier`: a point, two handles, the next point, and so on"
         }
         ("spline" | "interpolation" | "smooth" | "bezier" | "type" | "kind" | "linear_spline" | "cubic_spline", _)
-            if joined =>
+            if def.field("curve").is_some() =>
         {
             "how points are joined is its `curve`: Linear by straight lines, CatmullRom by a smooth curve through all \
              of them"
@@ -100,6 +96,9 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
         }
         ("angle" | "sweep" | "phi_max" | "start_angle" | "degrees", "Lathe") => {
             "it always goes all the way round: leave it out"
+        }
+        ("open" | "open_ended" | "openended" | "hollow", _) if def.field("caps").is_some() => {
+            "without its flat ends it has `caps: false`"
         }
         ("height" | "length", _) if ends && ron => {
             "how long it is is said by its ends: `from: (0, 0, 0), to: (0, 2, 0)`"

@@ -9,7 +9,7 @@ use crate::files::joined;
 use crate::form::Form;
 use crate::schema::{FieldDef, Type};
 use crate::suggest;
-use crate::syntax::{Syntax, decode};
+use crate::syntax::{Syntax, decode, units};
 use crate::tree::{Item, Kind};
 use crate::words::Words;
 use std::borrow::Cow;
@@ -199,6 +199,9 @@ impl Reader<'_> {
             if self.knows_var(trimmed) || item.kind() == Kind::Text && self.is_reckoned(trimmed) {
                 edit = Some(format!("\"={}\"", trimmed.trim_start_matches(['=', ' '])));
             }
+            if let Some((way, number)) = units::in_text(trimmed).filter(|_| edit.is_none()) {
+                return self.number_in_text(item, at, way, number);
+            }
         } else if let Kind::Tuple | Kind::List = item.kind() {
             edit = elsewhere::number_elsewhere(item, at);
             if let Some(name) = item.name().filter(|name| edit.is_none() && name.starts_with(char::is_lowercase)) {
@@ -244,6 +247,21 @@ impl Reader<'_> {
         }
         self.report(fault);
         true
+    }
+
+    /// Reports a number that stands in a text with its unit.
+    fn number_in_text(
+        &mut self,
+        item: Item<'_, '_>,
+        at: &'static FieldDef,
+        way: String,
+        number: Option<String>,
+    ) -> Option<f64> {
+        let message = format!("{} cannot be {}", plain(at.noun), super::describe(item));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected_for(at, item));
+        fault.edit = number.map(|replacement| Edit { span: item.span(), replacement });
+        self.report(fault.hint(way));
+        None
     }
 
     /// Whether a text without `=` before it is an expression of names that are known: `2*r`.

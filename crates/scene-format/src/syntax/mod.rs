@@ -25,7 +25,7 @@ mod toml_lexer;
 mod toml_literal;
 mod toml_names;
 mod toml_tables;
-mod units;
+pub(crate) mod units;
 
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit, MAX_DIAGNOSTICS, Span, too_many};

@@ -3,6 +3,9 @@
 use super::decode;
 use crate::diagnostic::{Diagnostic, Edit};
 
+/// Those in which the language counts as well.
+const SAME: [&str; 11] = ["deg", "degree", "degrees", "w", "watt", "watts", "px", "s", "sec", "seconds", "m"];
+
 /// A short word after a number: both, where it is one.
 pub(super) fn parted(lexeme: &str) -> Option<(&str, &str)> {
     let unit = lexeme.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | '_'));
@@ -37,9 +40,21 @@ pub(super) fn joined(mut fault: Diagnostic, lexeme: &str) -> Diagnostic {
     }
     let Some((number, unit)) = parted(lexeme) else { return fault };
     fault = fault.hint(way(Some(number), unit));
-    let same = ["deg", "degree", "degrees", "w", "watt", "watts", "px", "s", "sec", "seconds", "m"];
-    if same.contains(&unit.to_ascii_lowercase().as_str()) {
+    if SAME.contains(&unit.to_ascii_lowercase().as_str()) {
         fault.edit = Some(Edit { span: fault.span, replacement: number.to_owned() });
     }
     fault
+}
+
+/// The same of a text, `"50 cm"` or `"30°"`: what to write and, where the number itself is meant, the number. A comma
+/// for the point, `"1,5"`, too. `None`: it is no number with a unit.
+pub(crate) fn in_text(text: &str) -> Option<(String, Option<String>)> {
+    let pointed = text.replacen(',', ".", 1);
+    if decode::number(&pointed).is_finite() && pointed != text {
+        return Some((format!("write {pointed}"), Some(pointed)));
+    }
+    let squeezed = text.replace('°', "deg").replace([' ', '\u{a0}'], "");
+    let (number, unit) = parted(&squeezed)?;
+    let same = SAME.contains(&unit.to_ascii_lowercase().as_str());
+    Some((way(Some(number), unit), same.then(|| number.to_owned())))
 }

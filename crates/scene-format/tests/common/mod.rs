@@ -6,6 +6,7 @@ pub mod generated;
 mod lights;
 mod solid;
 mod textures;
+pub mod threads;
 
 use scene_format::{Diagnostic, LoadError, Loaded, Severity, Syntax, load_str};
 use std::path::Path;

@@ -261,9 +261,13 @@ fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
     2.0 * libm::atan2(a.dot(b.cross(c)), beside)
 }
 
-/// Whether each edge is between triangles that go along it as often in one way as in the other; corners at one place
-/// are one.
+/// Whether each edge is between triangles that go along it as often in one way as in the other.
 pub fn is_closed(data: &MeshData) -> bool {
+    open_edges(data) == 0
+}
+
+/// How many edges are not; corners at one place are one.
+pub fn open_edges(data: &MeshData) -> usize {
     let mut places: BTreeMap<[u64; 3], u32> = BTreeMap::new();
     let welded: Vec<u32> = data
         .positions
@@ -275,14 +279,14 @@ pub fn is_closed(data: &MeshData) -> bool {
     let mut edges: Vec<([u32; 2], i32)> = Vec::with_capacity(3 * data.triangles.len());
     for &[a, b, c] in &data.triangles {
         for (from, to) in [(a, b), (b, c), (c, a)] {
-            let (Some(&from), Some(&to)) = (welded.get(from as usize), welded.get(to as usize)) else { return false };
+            let (Some(&from), Some(&to)) = (welded.get(from as usize), welded.get(to as usize)) else { continue };
             if from != to {
                 edges.push(([from.min(to), from.max(to)], if from < to { 1 } else { -1 }));
             }
         }
     }
     edges.sort_unstable();
-    edges.chunk_by(|a, b| a.0 == b.0).all(|ways| ways.iter().map(|(_, way)| way).sum::<i32>() == 0)
+    edges.chunk_by(|a, b| a.0 == b.0).filter(|ways| ways.iter().map(|(_, way)| way).sum::<i32>() != 0).count()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Scenes that compile and are surely not meant: a picture on a mesh that has no place for it, glass that is inside
 //! out, light that is turned away.
 
-use super::bodies::is_closed;
+use super::bodies::{is_closed, open_edges};
 use super::curved::Curved;
 use super::meshes::Loaded;
 use super::placed::Placed;
@@ -20,6 +20,9 @@ const MOST_PAIRS: usize = 1_000_000;
 
 /// Marks are of that many copies only.
 const MOST_MARKED: usize = 1024;
+
+/// Whether a mesh of glass has holes is not looked at beyond so many triangles: it takes as long as they are many.
+const MOST_OF_GLASS: usize = 300_000;
 
 /// Warns of all of it.
 pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved], diagnostics: &mut Diagnostics) {
@@ -55,8 +58,14 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
                     .hint(format!("one colour of the texture is all that shows: {way}")),
             );
         }
+        if !material.is_some_and(Material::transmits) {
+            continue;
+        }
+        if data.triangles.len() <= MOST_OF_GLASS {
+            diagnostics.extend(open_glass(data, span));
+        }
         // The outside of a mirrored mesh stays outside.
-        if material.is_some_and(Material::transmits) && is_inside_out(data) {
+        if is_inside_out(data) {
             diagnostics.push(
                 Diagnostic::warning(
                     codes::INSIDE_OUT,
@@ -222,6 +231,21 @@ pub fn unlit(span: Span) -> Diagnostic {
 /// Whether a material has another colour at another place of a surface's texture coordinates.
 fn wants_uv(material: &Material) -> bool {
     material.varying().into_iter().any(Albedo::wants_uv)
+}
+
+/// A mesh of glass that has holes.
+fn open_glass(data: &MeshData, span: Span) -> Option<Diagnostic> {
+    let open = open_edges(data);
+    let edges = if open == 1 { "one edge has".to_owned() } else { format!("{open} edges have") };
+    (open > 0).then(|| {
+        Diagnostic::warning(
+            codes::OPEN_GLASS,
+            span,
+            format!("glass of an open mesh has no inside: {edges} no face, or one wound against it, on the other side"),
+        )
+        .expected("a closed mesh: a ray is bent by glass on its way in, and back on its way out")
+        .hint("close its holes, and give what is thin a thickness; in Blender Select > All by Trait > Non Manifold")
+    })
 }
 
 /// Whether a closed mesh has its inside outside: a negative volume.

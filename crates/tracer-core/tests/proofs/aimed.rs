@@ -48,6 +48,7 @@ fn glossy_balls() {
 
 /// Meshes fill little of their spheres; smooth matt ones start their rays above themselves.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn meshes() {
     let ring = vec![
         scale(3.5),

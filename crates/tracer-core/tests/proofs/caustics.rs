@@ -53,6 +53,7 @@ fn read_back(desc: &SceneDesc) -> SceneDesc {
 
 /// Water within glass, and a diamond of flat triangles.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn glass_of_several_surfaces() {
     let tinted =
         Material::Transparent(Box::new(Transparent { ior: 1.5.into(), transmittance: [0.4, 0.8, 1.0].into() }));
@@ -85,6 +86,7 @@ fn meshes() {
 
 /// Seen in a mirror, on a textured floor, with two lamps, from within glass.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn seen_otherwise() {
     let wall = sphere([-1008.0, 0.0, 0.0], 1000.0, mirror([0.9; 3]));
     assert_guiding_is_unbiased("in a wall", &on_the_floor(vec![wall, ball(3.0, glass(1.5))]), 512, SCENES);

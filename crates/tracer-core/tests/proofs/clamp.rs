@@ -97,6 +97,7 @@ fn left_and_taken_are_the_whole() {
 
 /// Sharing and photons included, for any number of threads and lanes; a crop tells of its own pixels.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn threads_lanes_and_crops() {
     for (name, desc) in scenes() {
         let scene = compiled(&desc);

@@ -190,6 +190,7 @@ fn shading_is_as_the_scene_and_the_file_say() {
 
 /// Copies of a ball, flattened and as instances: where the one has a triangle, the other's matrix puts it.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn copies_are_flattened_as_the_scene_says() {
     let file = icosphere(1).off("icosphere-1");
     let copies = |count: u32, instances: Instances| {

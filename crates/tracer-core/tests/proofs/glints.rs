@@ -34,6 +34,7 @@ fn balls() -> SceneDesc {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn chains_see_what_paths_see() {
     assert_guiding_is_unbiased("balls", &balls(), 96, SCENES);
     // A mesh, and a background that chains and paths see, too.

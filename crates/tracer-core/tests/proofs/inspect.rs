@@ -78,6 +78,7 @@ fn sum(scene: &Scene, vertices: &[VertexTold]) -> [f64; 3] {
 
 /// All pixels of a coarse grid, several samples each: to the bit what the film has.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn what_is_told_sums_to_the_sample() {
     for (name, desc) in scenes() {
         let scene = compiled(&desc);

@@ -115,11 +115,13 @@ fn every_pair_is_covered() {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn everything_in_every_combination() {
     every_combination("everything", everything());
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn many_balls_in_every_combination() {
     let mut desc = many_balls();
     // Three tiles across, as the others.
@@ -128,6 +130,7 @@ fn many_balls_in_every_combination() {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn pixels_for_themselves_in_every_combination() {
     every_combination("box filter, AgX", plain(PixelFilter::Box, ToneMap::AgX, None));
     every_combination("no filter, filmic, clamped", plain(PixelFilter::None, ToneMap::Filmic, Some(1.0)));

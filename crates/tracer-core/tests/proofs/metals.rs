@@ -42,6 +42,7 @@ fn metals_are_those_of_the_reference() {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn metals_with_interpolated_normals_are_those_of_the_reference() {
     let torus = torus(0.4, 24, 16).obj("torus-24-16");
     let placed = vec![Transform::Translate([0.0, 0.8, 0.0])];

@@ -185,6 +185,7 @@ fn every_pattern_is_that_of_the_reference_at_every_level() {
 
 /// A name is what stands at it: the same bytes, and what many name is in memory once.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn names_of_textures_change_nothing() {
     let bits = |scene: &Scene| -> Vec<u32> {
         seen(scene, Level::PORTABLE).as_flattened().iter().map(|x| x.to_bits()).collect()

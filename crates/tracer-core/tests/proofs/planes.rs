@@ -119,6 +119,7 @@ fn mean(film: &Film) -> f64 {
 
 /// Its patterns, its front, its transforms and copies, and what it does to light, as the reference has it.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn planes_as_the_reference_sees_them() {
     let samples = Samples { engine: 256, reference: 256 };
     let texts = [
@@ -223,6 +224,7 @@ fn it_is_a_rectangle_that_is_large_enough() {
 
 /// A mirror without an end shows a lamp where its image is: the receiver has the light of both.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn a_mirror_is_a_lamp_behind_it() {
     let tilt = DQuat::from_rotation_z(-0.3);
     let (normal, lamp) = (tilt * DVec3::X, DVec3::new(0.2, 1.1, 0.3));
@@ -255,6 +257,7 @@ fn a_mirror_is_a_lamp_behind_it() {
 /// Things on both sides of a plane that is seen from its edge, or nearly: who shares what must not share through it.
 /// And a mirror that photons go over.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn sharing_and_guiding_change_nothing() {
     let scenes = [
         ("edge on", 0.0, "Diffuse(albedo: 0.6)"),

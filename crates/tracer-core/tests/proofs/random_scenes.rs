@@ -142,6 +142,7 @@ fn compare(first: u64) {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn random_scenes_0_to_11() {
     compare(0);
 }

@@ -177,6 +177,7 @@ impl Page {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn the_tutorial_does_what_it_shows() {
     let text = fs::read_to_string(repository().join("docs/tutorial.md")).expect("the tutorial");
     let sandbox = Sandbox::new();

@@ -35,7 +35,7 @@ fn a_disk_is_full() {
     }
     let probe = tempfile::tempdir().expect("a folder");
     if Disk::mount(probe.path(), 64).is_none() {
-        println!("SKIPPED: no disk can be mounted here; as root, `cargo xtask prove faults` tries full disks");
+        println!("SKIPPED: no disk can be mounted here; as root, `cargo xtask prove faults-long` tries full disks");
         return;
     }
     let mut found = Vec::new();

@@ -1,8 +1,8 @@
 //! Every call to the system that concerns a file fails once, in every way that is usual; so does every large block of
 //! memory. Then the program ends by itself and says why, no file is half written, and none is lost.
 //!
-//! A layer between the program and the C library does it (`shim.rs`). `cargo xtask prove faults` takes all ways at
-//! every call (`FAULTS=long`), and disks that are really full; the test of every day takes them in turns.
+//! A layer between the program and the C library does it (`shim.rs`). `cargo xtask prove faults-long` takes all ways
+//! at every call (`FAULTS=long`), and disks that are really full; `cargo xtask prove faults` takes them in turns.
 #![cfg(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))]
 
 mod cases;

@@ -43,9 +43,10 @@ pub const PROOFS: &[Proof] = &[
     proof(
         "proofs",
         Always,
-        "the engine's proofs that take more than some seconds each; ten minutes",
+        "the tests that take more than some seconds each; twelve minutes",
         &[],
-        &["cargo test --locked --workspace --test proofs -- --ignored"],
+        &["cargo test --locked --workspace --lib --test proofs --test golden --test film_file --test cli --test http \
+             --test committed -- --ignored"],
     ),
     proof(
         "preview",
@@ -95,6 +96,14 @@ pub const PROOFS: &[Proof] = &[
          below 20 MB, which renders; ten minutes",
         &[Program("buildah", "buildah"), Program("cc", "gcc libc6-dev")],
         &["cargo xtask musl --all-pictures --container"],
+    ),
+    proof(
+        "faults",
+        Always,
+        "every call to the system that concerns a file fails in one of the usual ways, blocks of memory are refused; a \
+         minute",
+        &[],
+        &["cargo test --locked --workspace --test faults"],
     ),
     proof(
         "package",
@@ -265,7 +274,7 @@ pub const PROOFS: &[Proof] = &[
          twenty minutes",
         &[],
         &[
-            "FILM_MUTANTS=500000 cargo test --locked --workspace --test film_file -- mutants",
+            "FILM_MUTANTS=500000 cargo test --locked --workspace --test film_file -- --ignored mutants",
             "FILM_MUTANTS=1000000 cargo test --locked --workspace --test film_parts -- mutants",
         ],
     ),
@@ -274,10 +283,10 @@ pub const PROOFS: &[Proof] = &[
         Asked,
         "a hundred thousand broken files of a cache, damaged or sealed anew, taken without a panic; half an hour",
         &[],
-        &["CACHE_MUTANTS=50000 cargo test --locked --workspace --lib -- stored"],
+        &["CACHE_MUTANTS=50000 cargo test --locked --workspace --lib -- --ignored stored"],
     ),
     proof(
-        "faults",
+        "faults-long",
         Asked,
         "every call to the system that concerns a file fails in every usual way, every large block of memory is \
          refused, disks of all sizes are full; ten minutes",

@@ -249,6 +249,7 @@ fn kept(folder: &Path) -> (Folder, SceneDesc, Scene) {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn damaged_files_are_made_anew_mutants() {
     let folder = tempfile::tempdir().expect("a folder");
     let (store, desc, plain) = kept(folder.path());
@@ -288,6 +289,7 @@ fn damaged_files_are_made_anew_mutants() {
 
 /// Arrays of a file changed anyhow, with the right checksums: as by somebody who means harm.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn nothing_is_taken_on_trust_mutants() {
     let folder = tempfile::tempdir().expect("a folder");
     let (store, desc, _) = kept(folder.path());

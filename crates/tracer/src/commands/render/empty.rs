@@ -1,4 +1,4 @@
-//! Pictures that show nothing.
+//! Pictures that show nothing, or next to nothing.
 
 use scene_format::codes::Code;
 use scene_format::desc::{Background, Integrator, ToneMap};
@@ -15,8 +15,8 @@ const WHY_BLACK: [Code; 6] = [
     codes::DARK_LAMP,
 ];
 
-/// What is said of a picture that is black, white, or nothing but background. A part of one (`--crop`) may well be.
-/// Where it was said before why, nothing.
+/// What is said of a picture that is nearly black, white, or nothing but background. A part of one (`--crop`) may well
+/// be. Where it was said before why, nothing.
 pub(super) fn warning(film: &Film, desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
     let fault = of_picture(film, desc, scene)?;
     // That there is no light at all whoever reads a scene tells.
@@ -40,40 +40,66 @@ fn of_picture(film: &Film, desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic
     empty(film, desc).or_else(|| dark(film, desc)).or_else(|| white(film, desc))
 }
 
-/// What an eight-bit picture shows as black: half of a 255th, which is where sRGB is linear (IEC 61966-2-1).
-const BLACK: f64 = 0.5 / 255.0 / 12.92;
+/// What is hard to tell from black on a screen: 10 of 255, by the slope of sRGB next to black (IEC 61966-2-1).
+const DARK: f64 = 10.0 / 255.0 / 12.92;
+/// What clipping has taken the colour of.
+const WHITE: f64 = 2.0;
 
-/// Of a picture in which there is light, but so little that all of it is shown black.
+/// Of a picture in which there is light, but 99 of 100 pixels are dark.
 fn dark(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
-    // A curve lifts what is dark, and before a backdrop little may be seen.
-    if desc.effects.tone_map != ToneMap::None || desc.output.backdrop.is_some() {
+    let brightest = || shown(film, desc, |radiance| radiance.into_iter().fold(0.0, f64::max));
+    let pixels = brightest().count();
+    let is_dark = pixels > 0 && brightest().filter(|light| *light >= DARK).nth(pixels / 100).is_none();
+    // Of little in the dark the rest may be meant: stars.
+    let most = if is_dark { brightest().fold(0.0, f64::max) } else { 0.0 };
+    if most == 0.0 || most >= 0.5 {
         return None;
     }
-    let [width, height] = film.size();
-    let exposed = desc.effects.exposure.value.exp2();
-    let is_black = |x: u32, y: u32| film.radiance(x, y).iter().all(|channel| channel * exposed < BLACK);
-    let all = (0..height).all(|y| (0..width).all(|x| is_black(x, y)));
-    all.then(|| {
-        Diagnostic::warning(codes::ALL_BLACK, desc.effects.exposure.span, "the picture is so dark that all is black")
+    let mut sorted: Vec<f64> = brightest().collect();
+    let (_, bright, _) = sorted.select_nth_unstable_by(pixels - 1 - pixels / 100, f64::total_cmp);
+    let of = if *bright > 0.0 { *bright } else { most };
+    let message = "the picture is so dark that nearly all is black";
+    Some(
+        Diagnostic::warning(codes::ALL_BLACK, desc.effects.exposure.span, message)
             .expected("what is seen between black, 0, and white, 1")
-            .hint("take brighter lights or a higher `exposure`: 1 more is twice as bright")
-    })
+            .hint(way(desc, 0.5 / of, "brighter lights")),
+    )
 }
 
-/// Of a picture that is white twice over, in every channel of every pixel.
+/// Of a picture three quarters of which are white twice over, in every channel.
 fn white(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
-    // A curve brings something back, and before a backdrop little may be seen.
-    if desc.effects.tone_map != ToneMap::None || desc.output.backdrop.is_some() {
+    let least = || shown(film, desc, |radiance| radiance.into_iter().fold(f64::INFINITY, f64::min));
+    let pixels = least().count();
+    if pixels == 0 || least().filter(|light| *light < WHITE).nth(pixels / 4).is_some() {
         return None;
     }
-    let [width, height] = film.size();
-    let exposed = desc.effects.exposure.value.exp2();
-    let is_white = |x: u32, y: u32| film.radiance(x, y).iter().all(|channel| channel * exposed >= 2.0);
-    (0..height).all(|y| (0..width).all(|x| is_white(x, y))).then(|| {
-        Diagnostic::warning(codes::ALL_WHITE, desc.effects.exposure.span, "the picture is white")
+    let mut sorted: Vec<f64> = least().collect();
+    let (_, pale, _) = sorted.select_nth_unstable_by(pixels / 4, f64::total_cmp);
+    let message = match least().all(|light| light >= WHITE) {
+        true => "the picture is white",
+        false => "most of the picture is white",
+    };
+    Some(
+        Diagnostic::warning(codes::ALL_WHITE, desc.effects.exposure.span, message)
             .expected("what is seen between black, 0, and white, 1")
-            .hint("take a darker background, darker lights, or a lower `exposure`; a bright sky is about 1")
-    })
+            .hint(way(desc, 0.5 / *pale, "a darker background, darker lights")),
+    )
+}
+
+/// What is brightest or least of each pixel as the picture shows it. None of them where a curve lifts what is dark and
+/// brings back what is bright, nor before a backdrop, where little may be seen.
+fn shown(film: &Film, desc: &SceneDesc, of: impl Fn([f64; 3]) -> f64) -> impl Iterator<Item = f64> {
+    let is_plain = desc.effects.tone_map == ToneMap::None && desc.output.backdrop.is_none() && !desc.output.alpha;
+    let [width, height] = if is_plain { film.size() } else { [0; 2] };
+    let exposed = desc.effects.exposure.value.exp2();
+    let pixels = (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)));
+    pixels.map(move |(x, y)| exposed * of(film.radiance(x, y)))
+}
+
+/// What makes a picture so many times as bright.
+fn way(desc: &SceneDesc, factor: f64, lights: &str) -> String {
+    let exposure = (desc.effects.exposure.value + factor.log2()).round();
+    format!("try `--set effects.exposure={exposure}`, where 1 more is twice as bright, or take {lights}")
 }
 
 fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
