@@ -70,6 +70,7 @@ mod overrides;
 pub mod path;
 pub mod plane;
 mod print;
+mod radians;
 mod read;
 mod reference;
 pub mod render;

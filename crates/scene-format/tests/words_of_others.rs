@@ -39,6 +39,8 @@ fn kinds_of_objects() {
         ("AreaLight(size: 1)", "Emissive(radiance: 5)"),
         ("Pyramid(radius: 1)", "`Mesh`"),
         ("Prism(height: 1)", "Extrude(outline: [["),
+        ("Cone(from: (0, 0, 0), to: (0, 1, 0), radius: 1, to_radius: 0.5)", "`tip_radius`"),
+        ("Cone(from: (0, 0, 0), to: (0, 1, 0), from_radius: 1, tip_radius: 0.5)", "`radius`"),
         ("Lens(r1: 0.5, r2: 0.5)", "Intersection(objects: [Sphere("),
         ("ParaboloidMirror(focal_length: 1)", "`Lathe`"),
         ("Function(z: 1)", "`HeightField`"),

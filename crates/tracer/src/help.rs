@@ -251,6 +251,10 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
                 error.insert(ContextKind::SuggestedSubcommand, ContextValue::String(near));
             }
             match word.as_deref() {
+                Some("fix" | "mend" | "repair" | "correct") => {
+                    error.remove(ContextKind::SuggestedSubcommand);
+                    Some("`tracer check --fix scene.ron` mends what is certain".to_owned())
+                }
                 Some("version") => Some("the version is told by tracer --version".to_owned()),
                 word => word.and_then(of_file).or(scene),
             }

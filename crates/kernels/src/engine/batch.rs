@@ -202,6 +202,8 @@ pub struct Photons {
     pub point: Columns,
     /// Where they came from: the last mirror, glass or glossy surface.
     pub from: Columns,
+    /// Where they seem to come from ([`super::guide::cells::Photon`]).
+    pub origin: Columns,
     /// Flux, the sum of its channels.
     pub flux: Column<f32>,
     /// Number of photons stored.

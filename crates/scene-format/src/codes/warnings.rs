@@ -162,6 +162,24 @@ codes! {
     /// )
     /// ```
     DARK_LAMP "W0320" "a lamp that gives no light";
+    /// Two bodies of glass share a round wall, or a wall of a solid: water that is exactly as wide as the glass is
+    /// within. Rays meet both walls in one place, and rounding decides in which order: what is seen there is too dark
+    /// or too bright. Let the one reach a little into the other, a hundredth of its size, or leave a gap. (Flat sides
+    /// of bodies by themselves may touch.)
+    ///
+    /// ```text
+    /// objects: [
+    ///     Difference(
+    ///         objects: [
+    ///             Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 0.5),
+    ///             Cylinder(from: (0, 0.1, 0), to: (0, 1.1, 0), radius: 0.4),
+    ///         ],
+    ///         material: Transparent(ior: 1.5),
+    ///     ),
+    ///     Cylinder(from: (0, 0.1, 0), to: (0, 0.7, 0), radius: 0.4, material: Transparent(ior: 1.33)),
+    /// ]
+    /// ```
+    SHARED_WALL "W0321" "bodies of glass that share a wall";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

@@ -89,12 +89,13 @@ scene_enum! {
     }
 }
 
-/// Warns of three whole numbers up to 255 that are a colour in bytes. Greys may be meant so, and so may what is dark.
+/// Warns of three whole numbers up to 255 that are a colour in bytes, and of 255 alone. Other greys may be meant so,
+/// and so may what is dark.
 fn warn_of_bytes(reader: &mut Reader<'_>, item: Item<'_, '_>, color: Color) {
     let bytes = color.iter().all(|channel| channel.fract() == 0.0 && (0.0..=255.0).contains(channel));
     let bright = color.iter().any(|channel| *channel > 100.0);
-    let grey = color.iter().all(|channel| *channel == color[0]);
-    if !bytes || !bright || grey || !matches!(item.kind(), Kind::Tuple | Kind::List) {
+    let grey = color[0] != 255.0 && color.iter().all(|channel| *channel == color[0]);
+    if !bytes || !bright || grey || !matches!(item.kind(), Kind::Tuple | Kind::List | Kind::Integer) {
         return;
     }
     let hex: String = color.iter().map(|channel| format!("{:02x}", *channel as u8)).collect();

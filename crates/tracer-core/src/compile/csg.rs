@@ -428,6 +428,17 @@ impl SolidObject {
         &self.maps
     }
 
+    /// Where a copy is.
+    pub fn bounds(&self, map: &DAffine3) -> Box3 {
+        bounds(&self.node, &self.operands, map)
+    }
+
+    /// What a copy is made of: each shape, where it is, and its material.
+    pub fn walls(&self, map: &DAffine3) -> impl Iterator<Item = (UnitShape, DAffine3, u32)> {
+        let map = *map;
+        self.operands.iter().map(move |operand| (operand.unit, map * operand.moved * operand.local, operand.material))
+    }
+
     /// Where a thing lies of a copy.
     pub fn side(&self, map: &DAffine3, extent: &Extent) -> Side {
         side(&self.node, &self.operands, map, extent)

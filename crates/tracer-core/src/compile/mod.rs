@@ -33,6 +33,7 @@ mod programs;
 mod radiances;
 mod settled;
 mod shaped;
+mod shared_walls;
 mod shut_in;
 mod stored;
 mod textures;
@@ -195,6 +196,7 @@ fn warn(desc: &SceneDesc, gathered: &mut Gathered<'_>) {
     shut_in::warn(desc, &shut_in::Made { loaded, placed, curved, solids }, diagnostics);
     dark_lamps::warn(desc, assigned, diagnostics);
     hidden_flat::warn(desc, placed, diagnostics);
+    shared_walls::warn(desc, placed, (curved, solids), &finished.materials, diagnostics);
     curved::warn_of_open_glass(desc, diagnostics);
     other_scale::warn(desc, background.brightest(), diagnostics);
 }

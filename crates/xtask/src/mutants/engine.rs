@@ -307,6 +307,13 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: kernel_units(&["engine::stages::lights"]),
     },
     Mutant {
+        name: "dim-lamps-are-never-asked",
+        file: LIGHT_SELECTION,
+        find: "F::select(zero.lt(a) & zero.lt(b), bounded, first)",
+        replace: "F::select(zero.lt(a) & zero.lt(a), first, bounded)",
+        caught_by: proofs(&["range::dim_lamps_are_asked_beside_bright_ones"]),
+    },
+    Mutant {
         name: "cone-as-a-disc",
         file: SPHERE_LIGHT,
         find: "F::select(inside, F::splat(2.0), sin2 / (one + cos))",

@@ -162,6 +162,13 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["distances::the_sun_may_be_as_far_as_it_is"]),
     },
     Mutant {
+        name: "images-are-never-aimed-at",
+        file: "crates/kernels/src/engine/guide/cells.rs",
+        find: "if met <= seen {",
+        replace: "if met <= f32::INFINITY * seen {",
+        caught_by: kernel_units(&["engine::guide::cells"]),
+    },
+    Mutant {
         name: "lamps-let-far-light-through",
         file: "crates/kernels/src/engine/guide/approach.rs",
         find: ".filter(|(k, _)| *k != own)",

@@ -1,5 +1,7 @@
 //! Where the light comes from, by place: the cells of an octree over the places that photons reached, each with spheres
-//! in space that hold the last mirrors and glass on the photons' ways.
+//! in space. They hold the last mirrors and glass on the photons' ways or, where a cell sees it within narrower cones,
+//! what the photons seem to come from, straight on by the length of their ways: over flat mirrors and through panes
+//! that is the light's image, which is the same from all of the cell.
 
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
@@ -28,6 +30,9 @@ const TO_NEXT: f32 = 0.8;
 /// No sphere of a cell has a smaller share of its rays, in shares of an equal part.
 const LEAST_SHARE: f32 = 0.2;
 
+/// From so far on in render units what is seen from all of a cell is in one direction: to a ten thousandth of a radian.
+pub const FARTHEST: f32 = 1e5;
+
 /// A photon: where it was stored, where it came from there, and the sum of its channels of flux.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Photon {
@@ -35,6 +40,9 @@ pub struct Photon {
     pub point: [f32; 3],
     /// The last mirror, glass or glossy surface before.
     pub from: [f32; 3],
+    /// Where it seems to come from: the point, back along the direction by the length of the whole way, of which more
+    /// than [`FARTHEST`] counts as that.
+    pub origin: [f32; 3],
     /// Flux.
     pub flux: f32,
 }
@@ -250,9 +258,21 @@ struct Cluster {
 
 impl Cluster {
     /// All of them.
-    fn whole(photons: &[Photon]) -> Cluster {
+    #[inline(always)]
+    fn whole(photons: &[Photon], of: impl Fn(&Photon) -> [f32; 3]) -> Cluster {
         let empty = Cluster { first: 0, end: photons.len(), low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
-        photons.iter().fold(empty, |cluster, photon| cluster.with(photon.from))
+        photons.iter().fold(empty, |cluster, photon| cluster.with(of(photon)))
+    }
+
+    fn middle(&self) -> [f32; 3] {
+        [0, 1, 2].map(|axis| 0.5 * (self.low[axis] + self.high[axis]))
+    }
+
+    /// How wide the cones are that its photons see it in, squared, in all: as wide as that of one of them.
+    fn width(&self, photons: &[Photon]) -> f32 {
+        let size2 = 0.25 * distance2(self.low, self.high);
+        let distance2 = photons.get(self.first).map_or(0.0, |photon| distance2(photon.point, self.middle()));
+        (self.end - self.first) as f32 * (size2 / distance2).min(1.0)
     }
 
     /// Photons times squared size: about how many rays of its cone go astray.
@@ -295,24 +315,34 @@ impl Cluster {
     }
 }
 
-/// Adds [`SPHERES`] rows for the photons of a cell.
+/// Cones so many times as wide, squared, do not become narrower than others by being cut into [`SPHERES`].
+const CLEARLY: f32 = 16.0;
+
+/// Adds [`SPHERES`] rows for the photons of a cell, which are put in another order, and come from their origins then
+/// where these are what rows are added for.
 fn add_spheres(photons: &mut [Photon], rows: &mut SphereRows) {
-    let mut clusters = vec![Cluster::whole(photons)];
-    while clusters.len() < SPHERES {
-        let Some(worst) = (0..clusters.len()).max_by(|&a, &b| clusters[a].cost().total_cmp(&clusters[b].cost())) else {
-            break;
+    let met = Cluster::whole(photons, |photon| photon.from).width(photons);
+    let seen = Cluster::whole(photons, |photon| photon.origin).width(photons);
+    let clusters = if met <= seen {
+        clusters_of(photons)
+    } else {
+        let mut others: Vec<Photon> = photons.iter().map(|photon| Photon { from: photon.origin, ..*photon }).collect();
+        let of_origins = clusters_of(&mut others);
+        let all = |clusters: &[Cluster], photons: &[Photon]| -> f32 {
+            clusters.iter().map(|cluster| cluster.width(photons)).sum()
         };
-        if clusters[worst].end - clusters[worst].first < 2 || clusters[worst].cost() <= 0.0 {
-            break;
+        let of_casters = if met > CLEARLY * seen { Vec::new() } else { clusters_of(photons) };
+        if of_casters.is_empty() || all(&of_origins, &others) < all(&of_casters, photons) {
+            photons.copy_from_slice(&others);
+            of_origins
+        } else {
+            of_casters
         }
-        let [a, b] = clusters[worst].cut(photons);
-        clusters[worst] = a;
-        clusters.push(b);
-    }
+    };
     let whole: f32 = photons.iter().map(|photon| photon.flux).sum();
     let least = LEAST_SHARE / SPHERES as f32;
     for cluster in &clusters {
-        let center = [0, 1, 2].map(|axis| 0.5 * (cluster.low[axis] + cluster.high[axis]));
+        let center = cluster.middle();
         let own = &photons[cluster.first..cluster.end];
         let radius = own.iter().map(|photon| distance2(photon.from, center)).fold(0.0, f32::max).sqrt();
         // The way from the outermost photon to the next one.
@@ -324,12 +354,29 @@ fn add_spheres(photons: &mut [Photon], rows: &mut SphereRows) {
     (clusters.len()..SPHERES).for_each(|_| rows.push([0.0; 3], 0.0, 0.0));
 }
 
+/// At most [`SPHERES`] runs of photons, which are put in their order.
+fn clusters_of(photons: &mut [Photon]) -> Vec<Cluster> {
+    let mut clusters = vec![Cluster::whole(photons, |photon| photon.from)];
+    while clusters.len() < SPHERES {
+        let Some(worst) = (0..clusters.len()).max_by(|&a, &b| clusters[a].cost().total_cmp(&clusters[b].cost())) else {
+            break;
+        };
+        if clusters[worst].end - clusters[worst].first < 2 || clusters[worst].cost() <= 0.0 {
+            break;
+        }
+        let [a, b] = clusters[worst].cut(photons);
+        clusters[worst] = a;
+        clusters.push(b);
+    }
+    clusters
+}
+
 fn distance2(a: [f32; 3], b: [f32; 3]) -> f32 {
     let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
 }
 
-/// The way from the origin of a photon to that of the nearest other one.
+/// The way from where a photon came from to where the nearest other one did.
 fn to_next(from: [f32; 3], photons: &[Photon]) -> f32 {
     let others = photons.iter().map(|photon| distance2(photon.from, from)).filter(|&d| d > 0.0);
     let nearest = others.fold(f32::INFINITY, f32::min);

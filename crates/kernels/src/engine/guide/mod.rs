@@ -6,12 +6,12 @@
 //! because the ray that happens to take this way is rare and bright. Photons know these ways: sent from the lights at
 //! the casters ([`casters`], [`plan`]) and followed over mirrors, glass and narrow lobes
 //! (`engine::techniques::photons`), they tell at every place that they reach from where the light comes: from the
-//! last mirror or glass that they met. The guide keeps these as spheres in space, for the cells of an octree
-//! ([`cells`]), and more rays are aimed into the cones around them (`engine::stages::aim`). So photons guide paths
-//! and bring no light themselves (Jensen: Importance Driven Path Tracing Using the Photon Map, 1995): the estimate is
-//! that of paths, unbiased, on thin, small, folded and bent receivers as on large flat ones; a bad guide makes noise,
-//! never an error (light paths, which start as photons do, bring light: see [`approach`]). A density estimate of the
-//! photons lost up to two thirds of the light there.
+//! last mirror or glass that they met, or from the light's image where that looks smaller. The guide keeps these as
+//! spheres in space, for the cells of an octree ([`cells`]), and more rays are aimed into the cones around them
+//! (`engine::stages::aim`). So photons guide paths and bring no light themselves (Jensen: Importance Driven Path
+//! Tracing Using the Photon Map, 1995): the estimate is that of paths, unbiased, on thin, small, folded and bent
+//! receivers as on large flat ones; a bad guide makes noise, never an error (light paths, which start as photons do,
+//! bring light: see [`approach`]). A density estimate of the photons lost up to two thirds of the light there.
 //!
 //! How guides are made, `engine::techniques::guides` says.
 

@@ -4,7 +4,8 @@ use super::lights::{curved, share_towards};
 use super::materials::{Bsdf, reflect_bent};
 use super::shade::leaves;
 use super::surface_at::surface_at;
-use crate::engine::batch::Batch;
+use crate::engine::batch::{Batch, Photons};
+use crate::engine::guide::cells::FARTHEST;
 use crate::engine::guide::plan::{Plan, aim};
 use crate::engine::pass::PhotonPass;
 use crate::lanes::{Bits, Lanes, Mask};
@@ -38,8 +39,9 @@ impl<F: Lanes> Numbers<F> {
     }
 }
 
-/// Fills `batch.paths` with the first rays of the photons in `batch.photons`: slot the photon, throughput its flux; of
-/// light paths radiance, and `pdf` their density per area and solid angle over the cosine.
+/// Fills `batch.paths` with the first rays of the photons in `batch.photons`: slot the photon, throughput its flux,
+/// `pdf` how far from the light they start; of light paths radiance, and `pdf` their density per area and solid angle
+/// over the cosine.
 // Long: one way of starting for each kind of light, which share their numbers.
 #[inline(always)]
 pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, batch: &mut Batch) {
@@ -118,6 +120,7 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
             (flux, radiance) = (flux.mul(share), radiance.mul(share));
         }
         let mut leaves = F::U::gather(&pairs.light_primitive, pair);
+        let mut passed = zero;
         if pairs.any_far {
             let approach = F::gather(&pairs.approach, pair);
             let distance = distance2.sqrt();
@@ -125,6 +128,7 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
             let before = direction.mad(-approach, V3::gather_columns(&pairs.caster_center, pair).add(aside));
             let on_the_way = approach.lt(distance);
             point = V3::select(on_the_way, before, point);
+            passed = F::select(on_the_way, distance - approach, zero);
             leaves = F::U::select(on_the_way, F::U::splat(NONE), leaves);
         }
         let k = paths.len;
@@ -136,6 +140,7 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
             one.compress(sent, &mut paths.eta2[k..]);
         } else {
             flux.compress(sent, &mut paths.throughput, k);
+            passed.compress(sent, &mut paths.pdf[k..]);
         }
         leaves.compress(sent, &mut paths.from_primitive[k..]);
         F::U::splat(NONE).compress(sent, &mut paths.from_instance[k..]);
@@ -143,6 +148,19 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
         paths.len += sent.count();
     }
     batch.counters.photon_rays += batch.paths.len as u64;
+}
+
+/// Stores the photons of a mask: where, whence, whence they seem to come, and their flux.
+#[inline(always)]
+fn store<F: Lanes>(photons: &mut Photons, stored: F::M, [point, from, seen]: [V3<F>; 3], flux: F) {
+    if stored.any() {
+        let k = photons.len;
+        point.compress(stored, &mut photons.point, k);
+        from.compress(stored, &mut photons.from, k);
+        seen.compress(stored, &mut photons.origin, k);
+        flux.compress(stored, &mut photons.flux[k..]);
+        photons.len += stored.count();
+    }
 }
 
 /// i, i + 1, ..
@@ -186,15 +204,10 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         let surfaces = hit & s.light.eq(F::U::splat(0));
         let bsdf = Bsdf::<'_, F>::met(scene, &s, surfaces, &batch.hits.behind[..], i);
         let wo = direction.neg();
+        let way = F::load(&paths.pdf[i..]) + F::load(&batch.hits.t[i..]);
         if event > 0 {
-            let stored = bsdf.rough();
-            if stored.any() {
-                let k = photons.len;
-                s.p.compress(stored, &mut photons.point, k);
-                origin.compress(stored, &mut photons.from, k);
-                (flux.0 + flux.1 + flux.2).compress(stored, &mut photons.flux[k..]);
-                photons.len += stored.count();
-            }
+            let seen = wo.mad(way.min(c(FARTHEST)), s.p);
+            store(photons, bsdf.rough(), [s.p, origin, seen], flux.0 + flux.1 + flux.2);
         }
         let narrow = bsdf.narrow();
         let mut passes = bsdf.specular() | narrow;
@@ -232,6 +245,7 @@ pub fn photons_scatter<F: Lanes>(scene: &Scene, plan: &Plan, seed: u32, event: u
         start.compress(alive, &mut next.origin, k);
         wi.compress(alive, &mut next.direction, k);
         carried.compress(alive, &mut next.throughput, k);
+        way.compress(alive, &mut next.pdf[k..]);
         slot.compress(alive, &mut next.slot[k..]);
         leaving.compress(alive, &mut next.from_primitive[k..]);
         instance.compress(alive, &mut next.from_instance[k..]);

@@ -79,6 +79,7 @@ fn store(photons: &Photons, stored: &mut Vec<Photon>) {
     stored.extend((0..photons.len).map(|k| Photon {
         point: at(&photons.point, k),
         from: at(&photons.from, k),
+        origin: at(&photons.origin, k),
         flux: photons.flux[k],
     }));
 }

@@ -48,8 +48,9 @@ const WHITE: f64 = 2.0;
 /// Of a picture in which there is light, but 99 of 100 pixels are dark.
 fn dark(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     let brightest = || shown(film, desc, |radiance| radiance.into_iter().fold(0.0, f64::max));
-    let pixels = brightest().count();
-    let is_dark = pixels > 0 && brightest().filter(|light| *light >= DARK).nth(pixels / 100).is_none();
+    let pixels = film.size().map(|side| side as usize).iter().product::<usize>();
+    let is_dark =
+        is_plain(desc) && pixels > 0 && brightest().filter(|light| *light >= DARK).nth(pixels / 100).is_none();
     // Of little in the dark the rest may be meant: stars.
     let most = if is_dark { brightest().fold(0.0, f64::max) } else { 0.0 };
     if most == 0.0 || most >= 0.5 {
@@ -69,8 +70,8 @@ fn dark(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
 /// Of a picture three quarters of which are white twice over, in every channel.
 fn white(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     let least = || shown(film, desc, |radiance| radiance.into_iter().fold(f64::INFINITY, f64::min));
-    let pixels = least().count();
-    if pixels == 0 || least().filter(|light| *light < WHITE).nth(pixels / 4).is_some() {
+    let pixels = film.size().map(|side| side as usize).iter().product::<usize>();
+    if !is_plain(desc) || pixels == 0 || least().filter(|light| *light < WHITE).nth(pixels / 4).is_some() {
         return None;
     }
     let mut sorted: Vec<f64> = least().collect();
@@ -86,11 +87,15 @@ fn white(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     )
 }
 
-/// What is brightest or least of each pixel as the picture shows it. None of them where a curve lifts what is dark and
-/// brings back what is bright, nor before a backdrop, where little may be seen.
+/// Whether the picture shows light as it is: a curve lifts what is dark and brings back what is bright, and before a
+/// backdrop little may be seen.
+fn is_plain(desc: &SceneDesc) -> bool {
+    desc.effects.tone_map == ToneMap::None && desc.output.backdrop.is_none() && !desc.output.alpha
+}
+
+/// What is brightest or least of each pixel as the picture shows it.
 fn shown(film: &Film, desc: &SceneDesc, of: impl Fn([f64; 3]) -> f64) -> impl Iterator<Item = f64> {
-    let is_plain = desc.effects.tone_map == ToneMap::None && desc.output.backdrop.is_none() && !desc.output.alpha;
-    let [width, height] = if is_plain { film.size() } else { [0; 2] };
+    let [width, height] = film.size();
     let exposed = desc.effects.exposure.value.exp2();
     let pixels = (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)));
     pixels.map(move |(x, y)| exposed * of(film.radiance(x, y)))

@@ -268,12 +268,19 @@ pub fn expect_number(path: &Path) -> Result<(), Failure> {
     )))
 }
 
+/// A name without the `%04d` at its end that other programs have for `####`.
+fn without_printf(stem: &str) -> &str {
+    let digits = stem.strip_suffix(['d', 'i']).map(|stem| stem.trim_end_matches(|c: char| c.is_ascii_digit()));
+    digits.and_then(|stem| stem.strip_suffix('%')).map_or(stem, |name| name.trim_end_matches(['_', '-', '.']))
+}
+
 /// A name with room for a number.
 fn example(path: &Path) -> PathBuf {
     if is_dash(path) {
         return PathBuf::from("shot_####.png");
     }
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let stem = without_printf(&stem);
     match path.extension() {
         Some(extension) => path.with_file_name(format!("{stem}_####.{}", extension.to_string_lossy())),
         None => path.with_file_name(format!("{stem}_####")),
@@ -347,5 +354,8 @@ mod tests {
         assert_eq!(with_number("##/film.png", 3).as_deref(), Some("03/film.png"));
         assert_eq!(with_number("film.png", 3), None);
         assert_eq!(example(Path::new("out/film.png")), Path::new("out/film_####.png"));
+        assert_eq!(example(Path::new("out/film_%04d.png")), Path::new("out/film_####.png"));
+        assert_eq!(example(Path::new("%d")), Path::new("_####"));
+        assert_eq!(example(Path::new("method.png")), Path::new("method_####.png"));
     }
 }

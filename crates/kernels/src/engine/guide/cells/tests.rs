@@ -10,14 +10,38 @@ fn photons() -> Vec<Photon> {
             let x = number(k, 0) - 0.5;
             let from = if x < 0.0 { [-0.4, 0.3, 0.0] } else { [0.4, 0.3, 0.0] };
             let from = [0, 1, 2].map(|axis| from[axis] + 0.02 * (number(k, 2 + axis as u32) - 0.5));
-            Photon { point: [x, 0.0, number(k, 1) - 0.5], from, flux: 1.0 }
+            Photon { point: [x, 0.0, number(k, 1) - 0.5], from, origin: from, flux: 1.0 }
         })
         .collect();
-    photons.push(Photon { point: [0.25, 0.0, 0.25], from: [0.0, 0.9, 0.0], flux: 1.0 });
+    let from = [0.0, 0.9, 0.0];
+    photons.push(Photon { point: [0.25, 0.0, 0.25], from, origin: from, flux: 1.0 });
     photons
 }
 
 type One = ArrayF<1>;
+
+/// Through a pane the whole floor sees the sun in one direction, whatever part of the pane it is seen through: the
+/// cones are as narrow as the sun, where those around the pieces of the pane were as wide as the cells.
+#[test]
+fn flat_glass_shows_the_light_itself() {
+    let number = |k: u32, c: u32| (hash3(7, k, c) >> 40) as f32 / (1u32 << 24) as f32;
+    let (far, size) = (FARTHEST, 0.00465 * FARTHEST);
+    let photon = |k: u32| {
+        let point = [number(k, 0) - 0.5, 0.0, number(k, 1) - 0.5];
+        let origin = [size * (2.0 * number(k, 2) - 1.0), 0.8 * far, 0.6 * far];
+        // On a pane half a unit above.
+        let from = [0, 1, 2].map(|axis| point[axis] + (origin[axis] - point[axis]) * 0.5 / (0.8 * far));
+        Photon { point, from, origin, flux: 1.0 }
+    };
+    let cells = Cells::new(3, &(0..4000).map(photon).collect::<Vec<_>>(), 1.0);
+    for x in [-0.4, 0.1, 0.3] {
+        for (center, radius, _) in spheres(&cells, [x, 0.0, x]) {
+            let distance = distance2(center, [x, 0.0, x]).sqrt();
+            assert!(radius / distance < 0.01, "{x}: {center:?} {radius}");
+            assert!((center[1] / distance - 0.8).abs() < 0.01);
+        }
+    }
+}
 
 /// The number of the finest cell around a point.
 fn found(cells: &Cells, point: [f32; 3]) -> u32 {

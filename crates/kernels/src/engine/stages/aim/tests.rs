@@ -28,7 +28,7 @@ fn guide(flux: f32) -> Guide {
             let at = |c: u32| (crate::sampling::sampler::hash3(7, k, c) >> 40) as f32 / (1u32 << 24) as f32 - 0.5;
             let middle = if k % 3 == 0 { [-0.5, 0.6, 0.1] } else { [0.6, 0.5, 0.4] };
             let from = std::array::from_fn(|axis| middle[axis] + 0.15 * at(axis as u32));
-            Photon { point: [0.0; 3], from, flux }
+            Photon { point: [0.0; 3], from, origin: from, flux }
         })
         .collect();
     Guide { cells: Cells::new(3, if flux > 0.0 { &photons } else { &[] }, 1.0), casters: casters() }
