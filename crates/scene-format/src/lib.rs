@@ -70,7 +70,6 @@ mod overrides;
 pub mod path;
 pub mod plane;
 mod print;
-mod radians;
 mod read;
 mod reference;
 pub mod render;

@@ -8,7 +8,6 @@ use crate::follow_ups;
 use crate::include::Library;
 use crate::nameless;
 use crate::overrides::{self, Override};
-use crate::radians;
 use crate::read::{self, Whole};
 use crate::render::apply_edits;
 use crate::syntax::{Sink, Syntax, foreign, parse, parse_as};
@@ -202,7 +201,6 @@ impl Texts {
         // What could be read of a wrong scene is of no use any more, and may be large.
         let scene = scene.filter(|_| sink.errors == 0);
         let mut diagnostics = sink.diagnostics;
-        diagnostics.extend(radians::warning(text));
         let broken = files::broken_lines(text, &diagnostics);
         if sink.errors > 1 && follow_ups::is_cheap(sink.repeated) {
             follow_ups::leave_out(text, &mut diagnostics, |text| {

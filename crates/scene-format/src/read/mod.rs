@@ -21,6 +21,7 @@ mod outlines;
 mod part;
 mod pattern_fields;
 mod pick;
+mod radians;
 mod repeat;
 mod shape_fields;
 mod synonyms;

@@ -1,6 +1,7 @@
 //! Values by name, and the expressions that use them.
 
-use super::{Reader, Step, shortened};
+use super::radians::in_radians;
+use super::{Reader, Step, hinted, shortened};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expression::{self, List, MOST_LISTS, Named, Value};
@@ -10,6 +11,7 @@ use crate::suggest;
 use crate::tree::{Item, Kind};
 use crate::words::Words;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Vars that are reckoned for each other, at most.
@@ -50,6 +52,8 @@ pub(super) struct Table {
     frames: Vec<usize>,
     /// So many are being reckoned, each for the one before.
     open: usize,
+    /// That one takes radians for degrees was told.
+    told_of_radians: bool,
     /// That they were too many was told.
     waits_too_long: bool,
     /// Some could not be read: names may be missing.
@@ -117,6 +121,16 @@ impl Words for Vars {
 /// Whether a text is an expression.
 pub(crate) fn is_expression(item: Item<'_, '_>) -> bool {
     item.kind() == Kind::Text && item.lexeme().trim_start_matches(['"', '\'', 'r', '#']).starts_with('=')
+}
+
+/// A place in an expression, whose text this is. Without escapes that stands in the file as it is.
+fn within(item: Item<'_, '_>, text: &str, at: &Range<usize>) -> Span {
+    let mut span = item.span();
+    if item.lexeme().get(1..item.lexeme().len().max(2) - 1) == Some(text) {
+        let from = span.start + 2;
+        (span.start, span.end) = (from + at.start as u32, from + at.end as u32);
+    }
+    span
 }
 
 impl Reader<'_> {
@@ -333,20 +347,31 @@ impl Reader<'_> {
             }
         });
         let fault = match result {
-            Ok(value) => return Some(Some(value)),
+            Ok(value) => {
+                self.warn_of_radians(item, &text);
+                return Some(Some(value));
+            }
             Err(None) => return Some(None),
             Err(Some(fault)) => fault,
         };
-        // Without escapes the text stands in the file as it is.
-        let mut span = item.span();
-        if item.lexeme().get(1..item.lexeme().len().max(2) - 1) == Some(&*text) {
-            let from = span.start + 2;
-            (span.start, span.end) = (from + fault.at.start as u32, from + fault.at.end as u32);
-        }
+        let span = within(item, &text, &fault.at);
         let mut diagnostic = Diagnostic::error(fault.code, span, fault.message).expected(fault.expected);
         diagnostic.hint = fault.hint;
         self.report(diagnostic);
         Some(None)
+    }
+
+    /// Warns of `pi` in what counts in degrees, once in a scene: what is repeated is doubtful each time.
+    fn warn_of_radians(&mut self, item: Item<'_, '_>, text: &str) {
+        if self.vars.told_of_radians {
+            return;
+        }
+        let Some((at, degrees)) = in_radians(&text[1..]) else { return };
+        self.vars.told_of_radians = true;
+        let message = format!("`{}` has an angle in radians", shortened(&text[1..][at.clone()]));
+        let warning = Diagnostic::warning(codes::OTHER_SCALE, within(item, text, &at), message);
+        let hint = format!("write `{}`: a half turn is 180", hinted(&degrees));
+        self.report(warning.expected("an angle in degrees").hint(hint));
     }
 
     fn circle(&mut self, k: usize, item: Item<'_, '_>) {

@@ -9,6 +9,7 @@ fn a_wrong_command_line_ends_with_2() {
     let sandbox = Sandbox::new();
     let render = |more: &[&str]| sandbox.run(&[&["render", "scene.ron"][..], more].concat()).ends(2);
     sandbox.run(&["rendr"]).ends(2).says(&["unrecognized subcommand", "render"]);
+    sandbox.run(&["fix", "a.ron"]).ends(2).says(&["`tracer check --fix scene.ron` mends what is certain"]);
     render(&["-o", "a.gif"]).says(&["a.gif", "`.gif`", "png, exr, hdr, pfm"]);
     render(&["-o", "a"]).says(&["no extension", "a.png"]);
     render(&["-o", "."]).says(&["-o . is a folder", "-o ./scene.png"]);

@@ -152,7 +152,21 @@ fn who_is_shut_in_is_told() {
     // A pane without thickness bends light once.
     let pane = "Rectangle(size: 3, material: Transparent(ior: 1.5))";
     assert_eq!(code("background: 0.5,", &format!("{ball}, {pane}")), ["W0310"]);
-    // So does a mesh with a hole.
+    // Water as wide as its glass: both walls are in one place. In a glass that is wider or narrower they are not.
+    let filled = |radius: &str| {
+        let glass = "Difference(objects: [Cylinder(from: (0, 2, 0), to: (0, 3, 0), radius: 0.5), \
+                     Cylinder(from: (0, 2.1, 0), to: (0, 3.1, 0), radius: 0.4)], material: Transparent(ior: 1.5))";
+        format!(
+            "{ball}, {glass}, Cylinder(from: (0, 2.05, 0), to: (0, 2.7, 0), radius: {radius}, material: \
+             Transparent(ior: 1.33))"
+        )
+    };
+    assert_eq!(code("background: 0.5,", &filled("0.4")), ["W0321"]);
+    sandbox.run(&["check", "odd.ron"]).ends(0).says(&["objects[1] and objects[2]"]);
+    for apart in ["0.404", "0.396"] {
+        assert!(code("background: 0.5,", &filled(apart)).is_empty(), "{apart}");
+    }
+    // A mesh with a hole bends light once, too.
     let of_faces = |faces: &str| {
         let points = "(0, 3, 0), (1, 3, 0), (0, 4, 0), (0, 3, 1)";
         format!("{ball}, Mesh(points: [{points}], faces: [{faces}], material: Transparent(ior: 1.5))")
@@ -406,6 +420,15 @@ fn numbers_on_another_scale_are_told() {
         assert!(!code(&format!("background: {meant},"), ball).contains(&"W0317".to_owned()), "{meant}");
     }
     assert_eq!(code("background: 150,", ball), ["W0318"]);
+    assert_eq!(code("background: 255,", ball), ["W0317", "W0318"]);
+    // Radians, once however often they are reckoned with; not in a comment.
+    let ring = |angle: &str| {
+        let place = format!("\"=(2*cos({angle}), 0, 2*sin({angle}))\"");
+        format!("{ball}, Repeat(count: 8, items: [Sphere(center: {place}, radius: 0.2)])")
+    };
+    assert_eq!(code("background: 0.5,", &ring("2*pi*i/8")), ["W0317"]);
+    sandbox.run(&["check", "odd.ron"]).ends(0).says(&["`cos(2*pi*i/8)`", "write `cos(2*180*i/8)`"]);
+    assert!(code("background: 0.5, /* \"=cos(pi)\" */", &ring("360*i/8")).is_empty());
     assert_eq!(code("background: 0.5, effects: Effects(exposure: 12),", ball), ["W0317", "W0318"]);
     assert!(code("background: 0.0005, effects: Effects(exposure: 11),", ball).is_empty());
     let shining = |light: &str| code("", &format!("Sphere(center: (0, 3, 0), radius: 1, material: Emissive({light}))"));

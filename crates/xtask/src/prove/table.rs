@@ -45,8 +45,7 @@ pub const PROOFS: &[Proof] = &[
         Always,
         "the tests that take more than some seconds each; twelve minutes",
         &[],
-        &["cargo test --locked --workspace --lib --test proofs --test golden --test film_file --test cli --test http \
-             --test committed -- --ignored"],
+        &["cargo test --locked --workspace --tests -- --ignored"],
     ),
     proof(
         "preview",
