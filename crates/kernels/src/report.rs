@@ -168,6 +168,9 @@ pub struct Counters {
     pub dropped: u64,
     /// Samples that were finite, but too far above the scene's brightest light (see `film::exact`).
     pub beyond: u64,
+    /// Paths that had met mirrors and glass only when the scene allowed no more of them: what they would have seen is
+    /// black. Those are left out of which no light to speak of could have come.
+    pub cut: u64,
 }
 
 impl Counters {
@@ -181,5 +184,6 @@ impl Counters {
         self.chain_rays += other.chain_rays;
         self.dropped += other.dropped;
         self.beyond += other.beyond;
+        self.cut += other.cut;
     }
 }

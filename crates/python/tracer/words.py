@@ -237,7 +237,7 @@ class Render(TypedDict, total=False):
     """How to render.
 
     samples: Camera samples per pixel.
-    max_bounces: Scattering events after the first hit: a path has at most `max_bounces + 1` segments from the camera through surfaces, and one more to a light.
+    max_bounces: Scattering events after the first hit: a path has at most `max_bounces + 1` segments from the camera through surfaces, and one more to a light. Each side of glass that is seen through is one: a glass in a glass has eight sides, and what lies behind them is black with fewer.
     seed: Seed of all random choices.
     acceleration: What finds the hits; the picture is the same, byte for byte.
     integrator: What the picture is of, and with or without what saves noise.
@@ -363,7 +363,7 @@ class Output(TypedDict, total=False):
     marks: Dict[str, Either[Sequence[Either[float, str]], Array, str]]
 
 
-Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha", "Noise", "PathLength", "Nodes", "Leaves", "Direct", "Indirect", "Samples", "Motion"]
+Layer = Literal["Albedo", "Normal", "Depth", "Position", "Uv", "Emission", "ObjectId", "MaterialId", "Variance", "Alpha", "Noise", "PathLength", "Nodes", "Leaves", "Direct", "Indirect", "Samples", "Motion", "DenoisingAlbedo", "DenoisingNormal"]
 
 Matte = Literal["Objects", "Materials"]
 
@@ -374,7 +374,7 @@ class _EnvironmentRequired(TypedDict):
 
 
 class Environment(_EnvironmentRequired, total=False):
-    """Light from all directions as a picture has it: 360 degrees across, 180 down. Its middle lies where a camera looks by default, to -z, what is right of there to +x, and its top row at `up`.
+    """Light from all directions as a picture has it: 360 degrees across, 180 down. Its middle lies where a camera looks by default, to -z, what is right of there to +x, and its top row at `up`. It is linear between the middles of its texels, so that a sun of one texel is two wide, and at the poles as in its first and last row.
 
     file: HDR, EXR, PNG or JPEG, relative to the scene file; twice as wide as it is high.
     scale: Radiance where the picture has 1: one number, or three of red, green and blue. Unit: W/(sr m^2).

@@ -97,7 +97,7 @@ pub(crate) const CHOICES: [&EnumDef; 39] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 152] = [
+const SNIPPETS: [(&str, &str, &str); 154] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -142,6 +142,8 @@ const SNIPPETS: [(&str, &str, &str); 152] = [
     ("Layer", "Indirect", "layers: [Direct, Indirect]"),
     ("Layer", "Samples", "layers: [Samples]"),
     ("Layer", "Motion", "layers: [Motion]"),
+    ("Layer", "DenoisingAlbedo", "layers: [DenoisingAlbedo, DenoisingNormal]"),
+    ("Layer", "DenoisingNormal", "layers: [DenoisingAlbedo, DenoisingNormal]"),
     ("Matte", "Objects", "cryptomatte: [Objects]"),
     ("Matte", "Materials", "cryptomatte: [Materials]"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),

@@ -377,7 +377,8 @@ fn repairs_of_line(text: &str, line: Range<usize>) -> Vec<Repair> {
         grown && before.last().is_some_and(u8::is_ascii_uppercase)
     });
     found.extend(within.map(|at| change(at, "", "(")));
-    let edges = line.filter(|&at| is_edge(bytes, at) || matches!(bytes[at], b'(' | b'[')).chain([end]);
+    let edges = line.filter(|&at| is_edge(bytes, at) || matches!(&bytes[at..], [b'(' | b'[', ..] | [b'"', b'=', ..]));
+    let edges = edges.chain([end]);
     found.extend(edges.flat_map(|at| OPENERS.map(|opener| change(at, "", opener))));
     found
 }

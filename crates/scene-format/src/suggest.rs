@@ -23,7 +23,7 @@ pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         let distance = strsim::osa_distance(&plain, &folded);
         // Two letters are not enough to know a word by that differs in two.
         let short = distance > 1 && plain.chars().count() < 3;
-        if short || distance > MAX_DISTANCE || distance >= folded.chars().count().max(2) {
+        if short || distance > MAX_DISTANCE || distance >= folded.chars().count().max(plain.chars().count()) {
             continue;
         }
         let rank = Rank {

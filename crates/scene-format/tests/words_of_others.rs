@@ -37,7 +37,7 @@ fn check(cases: &[(&str, &str)], scene: impl Fn(&str) -> String) {
 fn kinds_of_objects() {
     let cases = [
         ("AreaLight(size: 1)", "Emissive(radiance: 5)"),
-        ("Pyramid(radius: 1)", "`Mesh`"),
+        ("Pyramid(radius: 1)", "Mesh(points: ["),
         ("Prism(height: 1)", "Extrude(outline: [["),
         ("Cone(from: (0, 0, 0), to: (0, 1, 0), radius: 1, to_radius: 0.5)", "`tip_radius`"),
         ("Cone(from: (0, 0, 0), to: (0, 1, 0), from_radius: 1, tip_radius: 0.5)", "`radius`"),
@@ -346,7 +346,7 @@ fn options_of_the_command_line() {
 fn kinds_of_lights() {
     let cases = [
         ("EnvironmentMap(file: 1)", "`Environment(file: \"sky.hdr\")`"),
-        ("DirectionalLight(direction: (0, 1, 0))", "a sun is a large sphere light"),
+        ("DirectionalLight(direction: (0, 1, 0))", "a sun is a sphere light far away"),
         ("SpotLight(position: (0, 1, 0))", "there is no spotlight"),
         ("AreaLight(size: 1)", "Emissive(radiance: 5)"),
         ("PointLight(position: (0, 5, 0), intensity: 3)", "`SphereLight(center: .., radius: .., power: ..)`"),
@@ -477,13 +477,52 @@ fn marks_are_points_with_names() {
 }
 
 #[test]
+fn what_newcomers_wrote() {
+    let cases = [
+        ("Box(from: (0, 0, 0), to: (1, 1, 1))", "center: (0.5, 0.5, 0.5)"),
+        ("Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 1, inner_radius: 0.5)", "Difference"),
+        ("Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 1, h: 1)", "from: (0, 0, 0)"),
+        ("Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 1, height: 3)", "from: (0, 0, 0)"),
+        ("Cylinder(from: (0, 0, 0), height: 3, radius: 1)", "write `from: (0, 0, 0), to: (0, 3, 0)`"),
+        ("Cylinder(height: 3, from: (0, 0, 0), radius: 1)", "write `from: (0, 0, 0), to: (0, 3, 0)`"),
+        ("Tube(points: [(0, 0, 0), (1, 0, 0)], radius: 0.1, start: (0, 0, 0))", "`points`"),
+        ("Arrow(from: (0, 0, 0), to: (1, 0, 0), radius: 0.1, origin: (0, 0, 0))", "`from`"),
+        ("Torus(radius: 1, tube_radius: 0.2, thickness: 0.2)", "tube_radius"),
+        ("Translate((0, 1, 0))", "Group("),
+        ("repeat(count: 2, items: [])", "Repeat(count"),
+        ("Box(size: 1, material: Metal(preset: \"gold\", roughness: 0.2))", "Conductor(metal: Gold, roughness: 0.2)"),
+        ("Box(size: 1, material: Metal(kind: Brass))", "Conductor(metal: Brass)"),
+        ("Box(size: 1, material: Transparent(ior: 1.5, attenuation: 1))", "transmittance"),
+        ("Box(size: 1, material: \"=if(1 > 0, 1, 2)\")", "Pick("),
+        ("Box(size: \"=vec3(1, 2, 3)\")", "(1, 2, 3)"),
+        ("Box(size: \"=range(3)\")", "Repeat("),
+        ("Box(size: \"=0.1*i\")", "within it"),
+    ];
+    check(&cases, |object| scene("", "", object));
+    let cases = [
+        ("vars: { \"a\": 1, \"b\": \"a*2\", \"c\": \"=a + b\" },", "\"=a*2\""),
+        ("vars: { \"a\": \"north\", \"c\": \"=a\" },", "an expression begins with `=`"),
+        ("materials: { \"floor\": Diffuse() },", "write \"floor\""),
+    ];
+    let with = |top: &str| {
+        let last = if top.contains("floor") { "Box(material: \"=floor\")" } else { "Box(size: \"=c\")" };
+        scene(top, "", last)
+    };
+    check(&cases, with);
+    let foreign = |text: &str| errors(text).first().map_or(String::new(), |fault| fault.message.clone());
+    for openscad in ["translate([0, 0, 5]) cylinder(h=10, r1=2, r2=0);", "$fn = 50;\nsphere(2);", "difference() {\n}"] {
+        assert!(foreign(openscad).contains("OpenSCAD"), "{openscad}: {}", foreign(openscad));
+    }
+}
+
+#[test]
 fn more_kinds_and_fields() {
     let cases = [
         ("Bevel(size: 1)", "rounding"),
         ("Instances()", "placements"),
         ("Empty()", "Group"),
         ("Line(from: (0, 0, 0), to: (1, 0, 0))", "Tube"),
-        ("Tetrahedron()", "`Mesh`"),
+        ("Tetrahedron()", "Mesh(points: ["),
         ("Box(size: 1, material: AreaLightSource(radiance: 3))", "Emissive"),
         ("Box(size: 1, material: MixShader())", "Mix"),
         ("Box(size: 1, material: Clearcoat())", "BlinnPhong"),

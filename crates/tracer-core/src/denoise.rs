@@ -6,7 +6,7 @@ use tracer_denoise::{Input, denoise_while as filtered};
 use tracer_kernels::layers::{Layer, LayerSet};
 
 /// The layers that guide it; the film needs them, beside halves ([`crate::RenderOptions::halves`]).
-pub const GUIDES: [Layer; 4] = [Layer::Albedo, Layer::Normal, Layer::Depth, Layer::Emission];
+pub const GUIDES: [Layer; 4] = [Layer::DenoisingAlbedo, Layer::DenoisingNormal, Layer::Depth, Layer::Emission];
 
 /// Pixels that a crop's border may differ by from the same pixels of the whole, which has others beside them.
 pub const DENOISE_REACH: u32 = tracer_denoise::REACH as u32;
@@ -99,7 +99,7 @@ pub fn denoise_while(film: &Film, goes_on: &(dyn Fn() -> bool + Sync)) -> Result
     let variance: Vec<f32> = (0..pixels).into_par_iter().map(|k| finite(film.variance(at(k).0, at(k).1))).collect();
     // All of them are there: else the film would lack them.
     let layer = |layer| film.layer(layer).map(|image| image.values).unwrap_or_default();
-    let [albedo, normal, depth] = [Layer::Albedo, Layer::Normal, Layer::Depth].map(layer);
+    let [albedo, normal, depth] = [Layer::DenoisingAlbedo, Layer::DenoisingNormal, Layer::Depth].map(layer);
     let input = Input {
         width: width as usize,
         height: height as usize,
@@ -190,9 +190,9 @@ pub struct Noisy {
     /// Radiance, linear RGB, rows from the top, not below zero; less the background where the film keeps that by itself
     /// ([`Film::has_backdrop`]).
     pub color: Vec<f32>,
-    /// The layer `albedo`.
+    /// The layer `denoising_albedo`.
     pub albedo: Vec<f32>,
-    /// The layer `normal`.
+    /// The layer `denoising_normal`.
     pub normal: Vec<f32>,
     /// Mean square error of the colour, estimated by the halves.
     error: f64,
@@ -219,8 +219,8 @@ impl Noisy {
         };
         let pixels = (0..width as usize * height as usize).into_par_iter();
         let color: Vec<f32> = pixels.flat_map_iter(pixel).collect();
-        let [albedo, normal] =
-            [Layer::Albedo, Layer::Normal].map(|layer| film.layer(layer).map(|image| image.values).unwrap_or_default());
+        let [albedo, normal] = [Layer::DenoisingAlbedo, Layer::DenoisingNormal]
+            .map(|layer| film.layer(layer).map(|image| image.values).unwrap_or_default());
         Ok(Noisy { width, height, color, albedo, normal, error })
     }
 

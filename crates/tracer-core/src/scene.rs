@@ -210,8 +210,26 @@ macro_rules! words {
 }
 
 words!(
-    Albedo, Normal, Depth, Position, Uv, Emission, ObjectId, MaterialId, Variance, Alpha, Noise, PathLength, Nodes,
-    Leaves, Direct, Indirect, Samples, Motion
+    Albedo,
+    Normal,
+    Depth,
+    Position,
+    Uv,
+    Emission,
+    ObjectId,
+    MaterialId,
+    Variance,
+    Alpha,
+    Noise,
+    PathLength,
+    Nodes,
+    Leaves,
+    Direct,
+    Indirect,
+    Samples,
+    Motion,
+    DenoisingAlbedo,
+    DenoisingNormal
 );
 
 #[cfg(test)]

@@ -138,7 +138,8 @@ fn what_cannot_be_denoised_is_told() {
     let scene = scene(OPEN, &[]);
     let bare = render(&scene, &RenderOptions { samples: Some(2), ..RenderOptions::default() }, &Unobserved);
     let error = denoise(&bare).expect_err("it lacks all");
-    let said = "it was rendered without what denoising needs (albedo, normal, depth, emission, halves)";
+    let said =
+        "it was rendered without what denoising needs (depth, emission, denoising_albedo, denoising_normal, halves)";
     assert_eq!(error.to_string(), said);
     assert_eq!(denoise(&film(&scene, &options(1))), Err(DenoiseError::Samples));
     assert!(denoise(&film(&scene, &options(2))).is_ok());

@@ -466,8 +466,10 @@ fn part(text: &str) -> Result<[u32; 2], String> {
 }
 
 fn layer(text: &str) -> Result<Layer, String> {
-    let names = || LayerSet::all().names().collect::<Vec<_>>().join(", ");
-    LayerSet::by_name(text.trim()).ok_or_else(|| format!("expected the name of a layer: {}", names()))
+    let names = || LayerSet::all().names().collect::<Vec<_>>();
+    let near = || scene_format::nearest(text.trim(), names()).map(|near| format!("; did you mean {near}?"));
+    let fault = || format!("expected the name of a layer: {}{}", names().join(", "), near().unwrap_or_default());
+    LayerSet::by_name(text.trim()).ok_or_else(fault)
 }
 
 fn bits(text: &str) -> Result<Bits, String> {

@@ -171,6 +171,31 @@ pub fn command() -> Command {
 /// `tracer help`, `tracer help render` and `tracer scene.ron`, as the commands that they mean; so what is wrong with a
 /// scene's name is told as `tracer render` tells it.
 pub fn meant(mut arguments: Vec<OsString>) -> Vec<OsString> {
+    // Options of all commands may stand before the command.
+    let before = leading(&arguments).min(arguments.len());
+    let options: Vec<OsString> = arguments.drain(before.min(1)..before).collect();
+    let mut arguments = command_of(arguments);
+    let place = arguments.len().min(2);
+    arguments.splice(place..place, options);
+    arguments
+}
+
+/// The place of the first word that is no option of all commands, and no value of one.
+fn leading(arguments: &[OsString]) -> usize {
+    let mut place = 1;
+    while let Some(word) = arguments.get(place).and_then(|word| word.to_str()) {
+        place += match word {
+            "-v" | "--verbose" => 1,
+            "--color" | "--allow" => 2,
+            _ if word.starts_with("--color=") || word.starts_with("--allow=") => 1,
+            _ => break,
+        };
+    }
+    if place < arguments.len() { place } else { 1 }
+}
+
+/// The words without options before the command, which is written out.
+fn command_of(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let word = |k: usize| arguments.get(k).and_then(|word| word.to_str());
     match word(1) {
         Some("help") => match word(2).is_some_and(|command| !command.starts_with('-')) {
@@ -377,6 +402,15 @@ fn one_more(words: &[String], more: &str) -> Option<String> {
         return None;
     }
     let word = quoted(more);
+    let sets = words.iter().any(|word| word == "--set" || word.starts_with("--set="));
+    if more == "=" {
+        let at = words.iter().position(|word| word == more)?;
+        let (field, value) = (words.get(at.checked_sub(1)?)?, words.get(at + 1)?);
+        return Some(format!("without spaces: --set {}", quoted(&format!("{field}={value}"))));
+    }
+    if sets && more.contains('=') {
+        return Some(format!("--set stands before each of them: --set {word}"));
+    }
     let command: Vec<&str> = words.iter().map(String::as_str).take(2).collect();
     Some(match command.as_slice() {
         ["convert", ..] => format!("the file to write: -o {word}"),

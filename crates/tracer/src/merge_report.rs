@@ -79,6 +79,7 @@ struct MergedSamples {
     total: u64,
     dropped: u64,
     beyond: u64,
+    cut: u64,
 }
 
 #[derive(Debug, Serialize)]
@@ -148,7 +149,12 @@ impl MergeReport {
             parts,
             missing: gaps.iter().map(missing).collect(),
             mean_path_length: (rays.camera.saturating_add(rays.scattered)) as f64 / rays.camera.max(1) as f64,
-            samples: MergedSamples { total: rays.camera, dropped: counters.dropped, beyond: counters.beyond },
+            samples: MergedSamples {
+                total: rays.camera,
+                dropped: counters.dropped,
+                beyond: counters.beyond,
+                cut: counters.cut,
+            },
             rays,
             noise: Noise::of(film),
             denoise,

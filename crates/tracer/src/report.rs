@@ -368,6 +368,8 @@ pub struct Samples {
     pub dropped: u64,
     /// Finite, but more than 6.7e7 times the scene's brightest light, and left out of the picture.
     pub beyond: u64,
+    /// Paths that had met mirrors and glass only when `max_bounces` ended them.
+    pub cut: u64,
 }
 
 /// Noise of the picture.

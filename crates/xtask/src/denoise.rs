@@ -88,7 +88,8 @@ fn rendered(scene: &Scene, samples: u32, seed: u32, plain: bool) -> Film {
     let options = RenderOptions {
         samples: Some(samples),
         seed: Some(seed),
-        layers: Some(GUIDES.into_iter().collect()),
+        // The last two for the masks.
+        layers: Some(GUIDES.into_iter().chain([Layer::Albedo, Layer::Normal]).collect()),
         halves: true,
         reuse: off,
         caustics: off,

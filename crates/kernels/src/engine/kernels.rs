@@ -7,7 +7,7 @@ use super::guide::plan::Plan;
 use super::pass::{Pass, PhotonPass};
 use super::stages::light_paths::LightPass;
 use super::stages::shaft::Obstacles;
-use super::stages::{aim, ambient, camera, first_hits, light_paths, photons, reach, shade, share, spheres};
+use super::stages::{aim, ambient, camera, first_hits, light_paths, photons, reach, seen, shade, share, spheres};
 use crate::bvh::TopBoxes;
 use crate::lanes::ArrayF;
 #[cfg(target_arch = "x86_64")]
@@ -23,6 +23,7 @@ pub struct Kernels {
     camera: unsafe fn(&Scene, u32, u32, &mut Batch),
     closest: unsafe fn(&SphereTable, &mut Batch),
     first_hits: unsafe fn(&Scene, u32, LayerSet, &mut Batch),
+    seen: unsafe fn(&Scene, LayerSet, u32, &mut Batch),
     shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
     ambient: unsafe fn(&Scene, u32, f32, &mut Batch),
     occluded: unsafe fn(&SphereTable, &mut Batch),
@@ -52,6 +53,10 @@ macro_rules! kernels {
             $(#[target_feature(enable = $features)])?
             fn first_hits_entry(scene: &Scene, seed: u32, layers: LayerSet, batch: &mut Batch) {
                 first_hits::first_hits::<$lanes>(scene, seed, layers, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn seen_entry(scene: &Scene, layers: LayerSet, vertex: u32, batch: &mut Batch) {
+                seen::seen::<$lanes>(scene, layers, vertex, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn shade_entry(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
@@ -103,6 +108,7 @@ macro_rules! kernels {
                 camera: camera_entry,
                 closest: closest_entry,
                 first_hits: first_hits_entry,
+                seen: seen_entry,
                 shade: shade_entry,
                 ambient: ambient_entry,
                 occluded: occluded_entry,
@@ -172,6 +178,11 @@ impl Kernels {
     pub fn first_hits(&self, scene: &Scene, seed: u32, layers: LayerSet, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.first_hits)(scene, seed, layers, batch) }
+    }
+    /// What the paths of vertex `vertex` see over mirrors and through glass, for these layers.
+    pub fn seen(&self, scene: &Scene, layers: LayerSet, vertex: u32, batch: &mut Batch) {
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
+        unsafe { (self.seen)(scene, layers, vertex, batch) }
     }
     /// Shades the hits of a vertex.
     pub fn shade(&self, scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {

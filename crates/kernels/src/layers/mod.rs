@@ -1,14 +1,16 @@
-//! Picture layers: what camera rays hit first, kept beside the picture.
+//! Picture layers: what camera rays hit first, or what is seen over mirrors and glass, kept beside the picture.
 //!
 //! A layer is a file here, named as its word in scenes is, with one contract ([`PictureLayer`]), and one line of
-//! `layers!`. The kernel that fills them (`engine::stages::first_hits`), the film that sums them (`film::layers`) and
-//! the files that they end in go by the contract and know no layer by its name.
+//! `layers!`. The kernels that fill them (`engine::stages::first_hits` and `seen`), the film that sums them
+//! (`film::layers`) and the files that they end in go by the contract and know no layer by its name.
 //!
 //! Samples lie where the pixel's filter has them, so their plain mean is the filtered one, as it is of the picture.
 
 mod albedo;
 mod alpha;
 mod batch;
+mod denoising_albedo;
+mod denoising_normal;
 mod depth;
 mod direct;
 mod emission;
@@ -42,6 +44,8 @@ pub enum Pixel {
     /// A number below 2^24 of the sample nearest to the pixel's centre, by primitive, instance and body
     /// ([`Surface::body`]); zero where that hits nothing.
     Nearest(fn(&Scene, u32, u32, u32) -> u32),
+    /// The mean of what samples see, be it over mirrors and through glass ([`PictureLayer::seen`]).
+    Seen,
     /// Not of what camera rays hit: the mean of what is counted while the rays of a sample are traced; of one channel.
     Counted(Count),
     /// Not of what camera rays hit: the mean of what has come to the samples over one surface at most; three channels.
@@ -106,6 +110,12 @@ pub trait PictureLayer {
         [F::splat(0.0), F::splat(0.0), F::splat(0.0)]
     }
 
+    /// Of what is seen over mirrors and glass: the same. Lanes that are of none of its masks may hold anything.
+    #[inline(always)]
+    fn seen<F: Lanes>(_: &Seen<F>) -> [F; 3] {
+        [F::splat(0.0), F::splat(0.0), F::splat(0.0)]
+    }
+
     /// How its numbers become the person's.
     fn units(_: &Scene) -> Units {
         Units::SAME
@@ -124,6 +134,33 @@ pub struct FirstHit<'a, F: Lanes> {
     pub t: F,
     /// The surface there.
     pub surface: &'a Surface<F>,
+}
+
+/// What paths see that have met mirrors and glass only.
+pub struct Seen<F: Lanes> {
+    /// They come straight from the camera.
+    pub straight: bool,
+    /// The lanes that meet a surface that is neither mirror nor glass nor lamp.
+    pub surfaces: F::M,
+    /// The lanes that meet a lamp.
+    pub lamps: F::M,
+    /// The lanes that meet nothing.
+    pub beyond: F::M,
+    /// What mirrors and glass let through, times the sample's share of it.
+    pub weight: V3<F>,
+    /// The surface's colour.
+    pub color: V3<F>,
+    /// Its unit shading normal, on the ray's side.
+    pub normal: V3<F>,
+}
+
+impl<F: Lanes> Seen<F> {
+    /// The weight without its colour.
+    #[inline(always)]
+    pub fn share(&self) -> F {
+        let V3(red, green, blue) = self.weight;
+        (red + green + blue) * F::splat(1.0 / 3.0)
+    }
 }
 
 /// What is kept of each pixel for a set of layers: so many sums, and so many numbers of the sample nearest to its
@@ -163,7 +200,8 @@ impl Definition {
 fn sums_of(channels: &[&str], pixel: Pixel) -> usize {
     match pixel {
         Pixel::Nearest(_) | Pixel::OfFilm(_) => 0,
-        Pixel::Mean | Pixel::MeanOfHits(_) | Pixel::Counted(_) | Pixel::Direct | Pixel::Indirect => channels.len(),
+        Pixel::Mean | Pixel::MeanOfHits(_) | Pixel::Seen => channels.len(),
+        Pixel::Counted(_) | Pixel::Direct | Pixel::Indirect => channels.len(),
     }
 }
 
@@ -198,6 +236,14 @@ macro_rules! layers {
         pub fn at<F: Lanes>(layer: Layer, hit: &FirstHit<'_, F>) -> [F; 3] {
             match layer {
                 $(Layer::$Word => <$Room>::at(hit),)+
+            }
+        }
+
+        /// [`PictureLayer::seen`] of a layer.
+        #[inline(always)]
+        pub fn seen_at<F: Lanes>(layer: Layer, of: &Seen<F>) -> [F; 3] {
+            match layer {
+                $(Layer::$Word => <$Room>::seen(of),)+
             }
         }
     };
@@ -240,6 +286,10 @@ layers! {
     Samples: samples::Samples,
     /// See [`motion`].
     Motion: motion::Motion,
+    /// See [`denoising_albedo`].
+    DenoisingAlbedo: denoising_albedo::DenoisingAlbedo,
+    /// See [`denoising_normal`].
+    DenoisingNormal: denoising_normal::DenoisingNormal,
 }
 
 /// A set of layers, for a rendering's options; it goes through them in the order in which files have them.
@@ -304,20 +354,20 @@ impl LayerSet {
         kept
     }
 
-    /// The layers, and which column of [`LayerSamples::sums`] is the first of each.
-    fn placed(self) -> impl Iterator<Item = (usize, Definition)> {
+    /// Which column of [`LayerSamples::sums`] is the first of each layer.
+    fn placed(self) -> impl Iterator<Item = (usize, Layer, Definition)> {
         let mut next = 0;
         self.iter().map(move |layer| {
             let definition = definition(layer);
             let column = next;
             next += sums_of(definition.channels, definition.pixel);
-            (column, definition)
+            (column, layer, definition)
         })
     }
 
     /// What is counted for them, and in which column of [`LayerSamples::sums`].
     pub fn counted(self) -> impl Iterator<Item = (usize, Count)> {
-        self.placed().filter_map(|(column, of)| match of.pixel {
+        self.placed().filter_map(|(column, _, of)| match of.pixel {
             Pixel::Counted(count) => Some((column, count)),
             _ => None,
         })
@@ -326,7 +376,14 @@ impl LayerSet {
     /// In which columns of [`LayerSamples::sums`] the first channel is of what comes over one surface at most.
     pub fn direct(self) -> impl Iterator<Item = usize> {
         let is_direct = |pixel| matches!(pixel, Pixel::Direct | Pixel::Indirect);
-        self.placed().filter(move |(_, of)| is_direct(of.pixel)).map(|(column, _)| column)
+        self.placed().filter(move |(_, _, of)| is_direct(of.pixel)).map(|(column, ..)| column)
+    }
+
+    /// Those of what is seen over mirrors and glass: the first column of [`LayerSamples::sums`], and how many they
+    /// have.
+    pub fn seen(self) -> impl Iterator<Item = (usize, Layer, usize)> {
+        let seen = self.placed().filter(|(_, _, of)| matches!(of.pixel, Pixel::Seen));
+        seen.map(|(column, layer, of)| (column, layer, of.channels.len()))
     }
 
     /// Whether camera rays have to be looked at for them.

@@ -55,10 +55,12 @@ impl Conductor {
 }
 
 impl Rough for Conductor {
+    /// Of the normal that is seen, times the cosine to that over the cosine to `n`, by which callers multiply.
     fn f(&self, n: DVec3, wo: DVec3, wi: DVec3) -> DVec3 {
+        let by_callers = n.dot(wi);
         let n = seen(n, wo);
         let (cos_o, cos_i) = (n.dot(wo), n.dot(wi));
-        if cos_o <= 0.0 || cos_i <= 0.0 {
+        if cos_o <= 0.0 || cos_i <= 0.0 || by_callers <= 0.0 {
             return DVec3::ZERO;
         }
         let alpha = self.alpha;
@@ -71,7 +73,7 @@ impl Rough for Conductor {
             let lost = |cos: f64| 1.0 - self.energy.at(cos);
             f += color * (lost(cos_o) * lost(cos_i) / (PI * (1.0 - e).max(1e-9)));
         }
-        f
+        f * (cos_i / by_callers)
     }
 
     /// Cosine-weighted, or every second time wo reflected in a normal of density D cos.

@@ -180,6 +180,18 @@ codes! {
     /// ]
     /// ```
     SHARED_WALL "W0321" "bodies of glass that share a wall";
+    /// The rendered picture is black where more is to be seen in mirrors or through glass: one in a hundred samples and
+    /// more were ended by `max_bounces` before they had met anything else. Each mirror and each side of glass is a
+    /// bounce: a drink in a glass has eight sides. Set `max_bounces` higher; the message says how high. (Rays that are
+    /// caught between mirrors without any loss are ended by nothing else.)
+    ///
+    /// ```text
+    /// Scene(render: Render(max_bounces: 3), background: 1, objects: [
+    ///     Sphere(center: (0, 0, 0), radius: 1, material: Transparent(ior: 1.5)),
+    ///     Sphere(center: (0, 0, 0), radius: 0.8, material: Transparent(ior: 1)),
+    /// ])
+    /// ```
+    CUT_PATHS "W0322" "ended where more is to be seen";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

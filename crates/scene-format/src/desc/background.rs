@@ -63,7 +63,8 @@ impl From<Color> for Background {
 
 scene_struct! {
     /// Light from all directions as a picture has it: 360 degrees across, 180 down. Its middle lies where a camera
-    /// looks by default, to -z, what is right of there to +x, and its top row at `up`.
+    /// looks by default, to -z, what is right of there to +x, and its top row at `up`. It is linear between the middles
+    /// of its texels, so that a sun of one texel is two wide, and at the poles as in its first and last row.
     pub struct Environment as "Environment", "an environment" {
         /// HDR, EXR, PNG or JPEG, relative to the scene file; twice as wide as it is high.
         file: Spanned<Arc<Path>> => Rule::file(FileKind::Environment);

@@ -132,6 +132,12 @@ scene_words! {
         /// none does, and where nothing moves while the shutter is open. `shutter: 0.01` tells it and blurs next to
         /// nothing.
         Motion,
+        /// As `Albedo`, of what is seen over mirrors and through glass, times their tints: what guides a denoiser. One
+        /// where nothing is hit, and for lamps there.
+        DenoisingAlbedo,
+        /// As `Normal`, of what is seen over mirrors and through glass, by the share of light that comes from there:
+        /// what guides a denoiser.
+        DenoisingNormal,
     }
 }
 

@@ -20,7 +20,8 @@ scene_struct! {
         /// Camera samples per pixel.
         samples: Spanned<u32> = 64u32 => Rule::within("a whole number", 1.0, 1_000_000_000.0);
         /// Scattering events after the first hit: a path has at most `max_bounces + 1` segments from the camera through
-        /// surfaces, and one more to a light.
+        /// surfaces, and one more to a light. Each side of glass that is seen through is one: a glass in a glass has
+        /// eight sides, and what lies behind them is black with fewer.
         max_bounces: Spanned<u32> = 5u32 => Rule::within("a whole number", 0.0, 1_000_000.0);
         /// Seed of all random choices.
         seed: Spanned<u32> = 0u32 => Rule::within("a whole number", 0.0, 4_294_967_295.0);

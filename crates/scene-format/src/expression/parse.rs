@@ -64,6 +64,7 @@ fn name_of_others(name: &str) -> Option<&'static str> {
         "True" | "TRUE" => "that is `true`",
         "False" | "FALSE" => "that is `false`",
         "not" => "the opposite is written with `!`",
+        "i" | "index" | "idx" => "`i` counts the times of a `Repeat`, and stands within it",
         _ => return None,
     })
 }
@@ -103,6 +104,12 @@ fn function_of_others(name: &str) -> Option<&'static str> {
         "int" | "trunc" => "whole numbers are made by `floor(x)` and `round(x)`",
         "rand" | "rnd" | "noise" => "that is `random(n)`, the same for the same n",
         "ln" => "that is `log(x)`",
+        "vec3" | "vec" | "vector" | "vector3" | "vec3f" | "point" | "rgb" | "color" | "colour" => {
+            "a vector or colour needs no name: (1, 2, 3)"
+        }
+        "range" | "seq" | "linspace" => {
+            "what is counted is counted by `Repeat(count: 3, items: [..])`, in which `i` is 0, 1, 2"
+        }
         _ => return None,
     })
 }

@@ -229,7 +229,8 @@ impl Reader<'_> {
             format!("{} cannot be read from the text {}", plain(at.noun), shortened(item.lexeme())),
         )
         .expected(expected_for(at, item));
-        if self.knows_var(text.trim()) {
+        let is_value = matches!(at.kind, Type::Value);
+        if self.knows_var(text.trim()) || is_value && self.is_reckoned(text.trim()) {
             let mended = format!("\"={}\"", text.trim());
             fault.hint = format!("write {mended}");
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
@@ -296,6 +297,8 @@ impl Reader<'_> {
             };
             fault.hint = format!("a picture of all directions is written {}", shortened(&replacement));
             fault.edit = Some(Edit { span: item.span(), replacement });
+        } else if is_value {
+            fault.hint = "a text is no value: an expression begins with `=`, a colour with `#`".to_owned();
         } else {
             fault.hint = match item.syntax() {
                 Syntax::Ron => "colours have no names here; red is (1, 0, 0) or \"#ff0000\"".to_owned(),

@@ -25,7 +25,23 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
     (
         &["sun", "sunlight", "daylight"],
-        "a sun is a large SphereLight far away; light from all around is the scene's `background`",
+        "a sun is a SphereLight far away, SphereLight(center: (60, 80, 40), radius: 0.5, radiance: 45000); light from \
+         all around is the scene's `background`",
+    ),
+    (
+        &["laser", "laserlight", "beam", "ray of light"],
+        "a beam is what a slit lets through of a small SphereLight far away; it is seen on what it meets, for there is \
+         no fog",
+    ),
+    (
+        &["helix", "spiral", "spring", "coil", "spiral staircase", "around a pole"],
+        "a spiral is made by Repeat(count: 20, items: [Group(objects: [..], transform: [Rotate(axis: (0, 1, 0), \
+         degrees: \"=20*i\"), Translate((0, \"=0.2*i\", 0))])]), a coil by a Tube through points that a Repeat makes",
+    ),
+    (
+        &["pivot", "origin", "orbit", "turn about"],
+        "an object is turned about its own middle, a Group about the origin; about another point: Rotate(axis: (0, 1, \
+         0), degrees: 30, about: (0, 0, 0))",
     ),
     (&["shadow", "shadows"], "what is lit throws shadows: a small light throws sharp ones, a large one soft ones"),
     (&["reflection", "reflective", "shiny"], "what reflects has the material Mirror, Conductor or BlinnPhong"),

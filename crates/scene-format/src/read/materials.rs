@@ -293,6 +293,20 @@ impl Reader<'_> {
             };
             fault.hint = format!("it is a texture, and a material has one: {}", shortened(&replacement));
             fault.edit = Some(Edit { span: item.span(), replacement });
+        } else if let Some(bare) = name.strip_prefix('=') {
+            let bare = bare.trim();
+            match known.contains(&bare) {
+                true => {
+                    let mended = crate::print::text(bare, item.syntax());
+                    fault.hint = format!("write {mended}: names of materials are no expressions");
+                    fault.edit = Some(Edit { span: item.span(), replacement: mended });
+                }
+                false => {
+                    fault.hint = "names of materials are no expressions; one of several is taken by Pick(from: \
+                                  [\"white\", \"black\"], index: \"=i % 2\")"
+                        .to_owned();
+                }
+            }
         } else if nearest.is_none() {
             fault.hint = match (kind, item.syntax()) {
                 (Some(_), Syntax::Ron) => format!("for a material written here, remove the quotes: {name}(..)"),

@@ -3,6 +3,7 @@
 use crate::schema::StructDef;
 
 /// How it is said here.
+// Long: a table.
 pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static str> {
     let has = |field| def.field(field).is_some();
     let camera = def.name == "Camera";
@@ -11,6 +12,9 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
         "absorption"
         | "absorption_color"
         | "sigma_a"
+        | "attenuation"
+        | "extinction"
+        | "absorbance"
         | "density"
         | "beer_lambert"
         | "attenuation_color"

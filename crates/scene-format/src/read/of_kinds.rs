@@ -14,8 +14,16 @@ pub(super) const OBJECTS: Hints = &[
     ),
     (
         &["pyramid", "tetrahedron", "loft"],
-        "other shapes are meshes: name an OBJ, OFF, PLY, STL, glTF or GLB file in a `Mesh`",
+        "its corners and faces may stand in the scene: Mesh(points: [(0, 1, 0), (-1, 0, -1), (1, 0, -1), (1, 0, 1), \
+         (-1, 0, 1)], faces: [[0, 4, 3], [0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 3, 4]]), or in a file, \
+         OBJ, OFF, PLY, STL, glTF or GLB: Mesh(file: \"a.obj\")",
     ),
+    (
+        &["translate", "rotate", "scale", "align", "fitto", "dropto"],
+        "transforms stand in an object: `transform: [Translate((0, 1, 0))]`; several objects are moved by \
+         Group(objects: [..], transform: [Translate((0, 1, 0))])",
+    ),
+    (&["repeat"], "a repetition has a large letter: Repeat(count: 8, items: [..])"),
     (&["ellipsoid", "spheroid"], "an ellipsoid is a `Sphere` with `transform: [Scale((1, 2, 1))]`"),
     (
         &["bezier"],
@@ -130,7 +138,8 @@ pub(super) const MATERIALS: Hints = &[
 pub(super) const LIGHTS: Hints = &[
     (
         &["directional", "distant", "sun", "directionallight", "distantlight", "sunlight", "parallel", "parallellight"],
-        "a sun is a large sphere light far away",
+        "a sun is a sphere light far away: SphereLight(center: (60, 80, 40), radius: 0.5, radiance: 45000) is as wide \
+         as ours, and gives 3 W/m^2",
     ),
     (
         &[
@@ -333,8 +342,9 @@ const BACKGROUNDS: Hints = &[
             "physicalsky",
         ],
         "a sky is one colour, (0.5, 0.7, 1), a picture, Environment(file: \"sky.hdr\"), or a large sphere that shines: \
-         Sphere(center: (0, 0, 0), radius: 300, material: Emissive(radiance: 1, two_sided: true, color: Gradient(a: \
-         (1, 0.8, 0.6), b: (0.3, 0.5, 1))))",
+         Sphere(center: (0, 0, 0), radius: 300, material: Emissive(radiance: 1, two_sided: true, color: \
+         ColorRamp(input: Gradient(), stops: [(at: 0.5, color: (1, 0.8, 0.6)), (at: 0.6, color: (0.3, 0.5, 1))]))), \
+         where 0.5 is the horizon",
     ),
     (
         &["color", "colour", "constant", "rgb", "solid", "uniform", "ambient", "vec3", "srgb"],

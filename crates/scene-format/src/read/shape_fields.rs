@@ -34,6 +34,7 @@ const ROUND: [&str; 12] = [
 ];
 
 /// What is said of fields that shapes do not have.
+// Long: a table.
 pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> Option<&'static str> {
     let (Some(_), Some(_)) = (def.field("material"), def.field("transform")) else { return None };
     let ron = syntax == Syntax::Ron;
@@ -88,6 +89,18 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
             | "minor_segments",
             "Sphere" | "Cylinder" | "Cone" | "Capsule" | "Disk" | "Torus",
         ) => "it is round, and not made of pieces: leave it out",
+        ("from" | "to" | "start" | "end" | "begin" | "p1" | "p2", "Tube") if ron => {
+            "a tube goes along its `points`: [(0, 0, 0), (1, 1, 0)]; one that is straight is a `Cylinder` or `Capsule`"
+        }
+        ("from" | "to" | "start" | "end" | "begin" | "p1" | "p2", "Tube") => {
+            "a tube goes along its `points`, two or more; one that is straight is a `Cylinder` or `Capsule`"
+        }
+        ("origin" | "direction" | "dir" | "position" | "start" | "end" | "tip" | "vector", "Arrow") => {
+            "an arrow goes from the point `from` to the point `to`"
+        }
+        ("inner_radius" | "thickness" | "wall" | "wall_thickness" | "inner" | "hole", "Cylinder") => {
+            "a pipe with a wall is a `Difference` of two cylinders, or a `Lathe` whose profile is the wall's section"
+        }
         ("twist" | "taper" | "scale_top", "Extrude") => {
             "the outline is the same all along: a `Mesh` takes other shapes"
         }
@@ -100,10 +113,10 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
         ("open" | "open_ended" | "openended" | "hollow", _) if def.field("caps").is_some() => {
             "without its flat ends it has `caps: false`"
         }
-        ("height" | "length", _) if ends && ron => {
+        ("height" | "length" | "h", _) if ends && ron => {
             "how long it is is said by its ends: `from: (0, 0, 0), to: (0, 2, 0)`"
         }
-        ("height" | "length", _) if ends => "how long it is is said by its ends, `from` and `to`",
+        ("height" | "length" | "h", _) if ends => "how long it is is said by its ends, `from` and `to`",
         ("radius" | "r" | "half_extents" | "half_size" | "halfsize" | "edge" | "side" | "length", "Box") => {
             "its sides along x, y and z are its `size`, from face to face; round edges have a radius, its `rounding`"
         }

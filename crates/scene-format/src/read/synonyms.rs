@@ -75,7 +75,22 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("materials", &["bsdfs", "shaders", "material", "mats"]),
     ("lights", &["emitters", "light_sources", "lamps", "luminaires"]),
     ("objects", &["meshes", "models", "primitives", "geometry", "entities", "geometries"]),
-    ("vars", &["variables", "parameters", "params", "constants", "declare", "define", "defines", "consts"]),
+    (
+        "vars",
+        &[
+            "variables",
+            "parameters",
+            "params",
+            "constants",
+            "declare",
+            "define",
+            "defines",
+            "consts",
+            "values",
+            "locals",
+            "let",
+        ],
+    ),
     ("include", &["imports", "includes", "import", "libraries"]),
     ("placements", &["instances", "copies", "array", "duplicates", "instance_transforms"]),
     ("tone_map", &["tonemap", "tonemapping", "tone_mapping", "view_transform", "tonemapper"]),
@@ -165,7 +180,10 @@ const SYNONYMS: &[(&str, &[&str])] = &[
 /// The two radii of a torus are told apart by small and large letters alone.
 const OF_TORUS: &[(&str, &[&str])] = &[
     ("radius", &["R", "major", "major_radius", "ring_radius", "radius_major", "main_radius"]),
-    ("tube_radius", &["r", "minor", "minor_radius", "tube", "radius_minor", "section_radius", "thickness_radius"]),
+    (
+        "tube_radius",
+        &["r", "minor", "minor_radius", "tube", "radius_minor", "section_radius", "thickness_radius", "thickness"],
+    ),
 ];
 
 /// A word without what programs join words by: `lookAt`, `look_at` and `lookat` are one.

@@ -23,8 +23,8 @@ type Turned = fn(&[Item<'_, '_>], Syntax) -> Option<String>;
 /// written.
 type Row = (&'static str, &'static [&'static [&'static str]], &'static [&'static str], [&'static str; 2], Turned);
 
-const MIN: &[&str] = &["min", "minimum", "pmin", "p_min", "lower", "corner1", "corner_1", "bbmin"];
-const MAX: &[&str] = &["max", "maximum", "pmax", "p_max", "upper", "corner2", "corner_2", "bbmax"];
+const MIN: &[&str] = &["min", "minimum", "pmin", "p_min", "lower", "corner1", "corner_1", "bbmin", "from", "p1"];
+const MAX: &[&str] = &["max", "maximum", "pmax", "p_max", "upper", "corner2", "corner_2", "bbmax", "to", "p2"];
 const INNER: &[&str] = &["inner", "inner_radius", "interior_radius"];
 const OUTER: &[&str] = &["outer", "outer_radius", "exterior_radius"];
 
@@ -167,14 +167,19 @@ fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, [ron, toml], turne
     let find = |names: &&[&str]| item.fields().take(MOST).find(|(key, _)| names.contains(&&*key.text()));
     let found: Vec<(Item<'_, '_>, Item<'_, '_>)> = theirs.iter().map(find).collect::<Option<_>>()?;
     let fields = ours.to_vec();
-    let start = |(key, _): &(Item<'_, '_>, Item<'_, '_>)| key.span().start;
-    if found.iter().any(|one| start(one) < unknown.key.span().start) {
+    // `from` with `height` is one of each.
+    let of_ours = |key: Item<'_, '_>| def.field(&key.text()).is_some();
+    let written = |field: &&str| item.fields().take(MOST).any(|(key, _)| key.text() == **field);
+    if found.iter().any(|(key, _)| of_ours(*key)) && ours.iter().all(written) {
+        return None;
+    }
+    if found.iter().any(|(key, _)| !of_ours(*key) && key.span().start < unknown.key.span().start) {
         return Some(Together { hint: None, edit: None, fields });
     }
     let syntax = item.syntax();
     let values: Vec<Item<'_, '_>> = found.iter().map(|(_, value)| *value).collect();
-    let written = |field: &&str| item.fields().take(MOST).any(|(key, _)| key.text() == **field);
-    let there = ours.iter().find(|field| written(field));
+    let is_found = |field: &&&str| found.iter().any(|(key, _)| key.text() == **field);
+    let there = ours.iter().find(|field| written(field) && !is_found(field));
     let mended = turned(&values, syntax).filter(|_| there.is_none());
     let way = if syntax == Syntax::Ron { (*ron).into() } else { syntax.of_toml(*toml) };
     let hint = match &mended {

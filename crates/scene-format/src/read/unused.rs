@@ -52,7 +52,10 @@ impl Reader<'_> {
         }
         for (name, span) in vars {
             let message = format!("nothing uses the var \"{}\"", shortened(&name));
-            let hint = format!("remove it, or write \"={name}\" where its value is due");
+            let used = self.vars.list.iter().filter(|var| var.used).map(|var| &*var.name);
+            let near = crate::suggest::nearest(&name, used);
+            let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? If not "));
+            let hint = format!("{near}remove it, or write \"={name}\" where its value is due");
             self.path = vec![Step::Field("vars"), Step::Key((*name).to_owned())];
             self.report(Diagnostic::warning(codes::UNUSED_NAME, span, message).hint(hint));
         }

@@ -265,7 +265,7 @@ impl Reader<'_> {
     }
 
     /// Whether a text without `=` before it is an expression of names that are known: `2*r`.
-    fn is_reckoned(&self, text: &str) -> bool {
+    pub(super) fn is_reckoned(&self, text: &str) -> bool {
         let body = text.trim_start_matches(['=', ' ']);
         let value = expression::evaluate(body, &mut |name| match self.knows_var(name) {
             true => Named::Value(Value::Number(1.0)),

@@ -225,9 +225,16 @@ impl Reader<'_> {
         let names = def.variants.iter().map(|variant| variant.name);
         let elsewhere = kind_elsewhere(name, def);
         if let Some(metal) = inner.and_then(|inner| metal_of(inner, def)) {
-            let mended = format!("Conductor(metal: {metal})");
+            let fields = || inner.into_iter().flat_map(|inner| inner.fields().take(8));
+            let roughness = fields().find(|(key, _)| key.text() == "roughness");
+            let roughness = roughness.map(|(_, value)| format!(", roughness: {}", value.lexeme()));
+            let used = 1 + usize::from(roughness.is_some());
+            let mended = format!("Conductor(metal: {metal}{})", roughness.unwrap_or_default());
             fault.hint = format!("write {mended}");
-            fault.edit = inner.map(|inner| Edit { span: Span { end: inner.span().end, ..span }, replacement: mended });
+            // What else is said of it would be lost.
+            fault.edit = inner
+                .filter(|_| fields().count() <= used)
+                .map(|inner| Edit { span: Span { end: inner.span().end, ..span }, replacement: mended });
             self.report(fault);
             return None;
         }
@@ -427,12 +434,22 @@ pub(super) static NO_FIELD: crate::schema::FieldDef = crate::schema::FieldDef {
     default: None,
 };
 
-/// The metal that a material of RON has in its brackets alone: `Metal(Gold)`.
-fn metal_of<'s>(inner: Item<'_, 's>, def: &'static EnumDef) -> Option<&'s str> {
-    let mut children = inner.children();
-    let (only, None) = (children.next()?, children.next()) else { return None };
-    let is_metal = inner.syntax() == Syntax::Ron && only.kind() == Kind::Word && def.noun == "material";
-    (is_metal && Metal::DEF.variant(only.lexeme()).is_some()).then(|| only.lexeme())
+/// The metal that a material of RON names in its brackets: `Metal(Gold)`, `Metal(preset: "gold", roughness: 0.2)`.
+fn metal_of(inner: Item<'_, '_>, def: &'static EnumDef) -> Option<&'static str> {
+    if inner.syntax() != Syntax::Ron || def.noun != "material" {
+        return None;
+    }
+    let named = |item: Item<'_, '_>| {
+        let is_name = matches!(item.kind(), Kind::Word | Kind::Text);
+        let text = item.text();
+        let mut metals = Metal::DEF.variants.iter().map(|metal| metal.name);
+        metals.find(|metal| is_name && metal.eq_ignore_ascii_case(text.trim()))
+    };
+    let mut fields = inner.fields().take(8).map(|(_, value)| value).peekable();
+    match fields.peek() {
+        Some(_) => fields.find_map(named),
+        None => inner.children().next().and_then(named),
+    }
 }
 
 /// All that a choice may be, as it is written.

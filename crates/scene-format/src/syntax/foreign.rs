@@ -13,7 +13,12 @@ pub(crate) fn whole(text: &str, syntax: Syntax) -> Option<Diagnostic> {
 /// Scenes of other programs in JSON, told by names that ours never have.
 fn of_json(text: &str, syntax: Syntax) -> Option<Diagnostic> {
     // (what they are called, the names that tell them, what to do)
-    const OTHERS: [(&str, &[&str], &str); 2] = [
+    const OTHERS: [(&str, &[&str], &str); 3] = [
+        (
+            "a dictionary of Mitsuba",
+            &["type", "sensor", "integrator"],
+            "scenes of other programs are not read; `tracer new scene.json` starts one",
+        ),
         (
             "glTF",
             &["asset", "accessors", "bufferViews"],
@@ -254,6 +259,27 @@ fn of_others(first: &str, rest: &str) -> Option<&'static str> {
         || POV.contains(&word) && (after.starts_with('{') || after.is_empty() && rest.trim_start().starts_with('{'))
     {
         return Some("POV-Ray");
+    }
+    const OPENSCAD: [&str; 13] = [
+        "translate",
+        "rotate",
+        "scale",
+        "mirror",
+        "color",
+        "cube",
+        "sphere",
+        "cylinder",
+        "union",
+        "difference",
+        "intersection",
+        "linear_extrude",
+        "rotate_extrude",
+    ];
+    let called = OPENSCAD.contains(&word) && after.starts_with('(');
+    let setting = ["$fn", "$fa", "$fs"].iter().any(|sign| first.starts_with(sign));
+    let module = word == "module" && after.contains('(');
+    if setting || module || called && (first.ends_with(';') || first.ends_with('{') || first.contains("])")) {
+        return Some("OpenSCAD");
     }
     let argument = after.is_empty() || after.starts_with(|c: char| c == '"' || c == '-' || c.is_ascii_digit());
     if PBRT.contains(&word) && argument {

@@ -147,7 +147,7 @@ impl FilmHead {
         for number in &mut part {
             *number = next()?;
         }
-        let mut counters = [0; 8];
+        let mut counters = [0; 9];
         for counter in &mut counters {
             *counter = long(from)?;
         }
@@ -292,15 +292,15 @@ fn long(from: &mut &[u8]) -> Option<u64> {
     from.split_off(..8)?.try_into().ok().map(u64::from_le_bytes)
 }
 
-fn counters_as_array(counters: Counters) -> [u64; 8] {
-    let Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond } =
+fn counters_as_array(counters: Counters) -> [u64; 9] {
+    let Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond, cut } =
         counters;
-    [camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond]
+    [camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond, cut]
 }
 
-fn counters_from_array(counters: [u64; 8]) -> Counters {
-    let [camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond] = counters;
-    Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond }
+fn counters_from_array(counters: [u64; 9]) -> Counters {
+    let [camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond, cut] = counters;
+    Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond, cut }
 }
 
 /// Tiles that the pixels of a crop lie in.

@@ -234,7 +234,7 @@ impl Film {
         let layers = tile.layers.as_deref();
         let hits = layers.map_or(0, |layers| layers.hits[k]);
         let count = match definition(of.layer).pixel {
-            Pixel::Mean | Pixel::Counted(_) => tile.samples[k].max(1),
+            Pixel::Mean | Pixel::Seen | Pixel::Counted(_) => tile.samples[k].max(1),
             Pixel::MeanOfHits(empty) if hits == 0 => return pixel.fill(empty),
             Pixel::MeanOfHits(_) => hits,
             Pixel::Nearest(_) => {

@@ -349,7 +349,7 @@ fn light_samples(heads: &[FilmHead]) -> Option<u32> {
 fn add_counters(to: &mut Counters, from: &Counters) {
     // Heads hold less than 2^60 each; a lie must not be a panic.
     let add = |to: &mut u64, from: u64| *to = to.saturating_add(from);
-    let Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond } =
+    let Counters { camera_rays, scattered_rays, shadow_rays, segments, photon_rays, chain_rays, dropped, beyond, cut } =
         *from;
     add(&mut to.camera_rays, camera_rays);
     add(&mut to.scattered_rays, scattered_rays);
@@ -359,6 +359,7 @@ fn add_counters(to: &mut Counters, from: &Counters) {
     add(&mut to.chain_rays, chain_rays);
     add(&mut to.dropped, dropped);
     add(&mut to.beyond, beyond);
+    add(&mut to.cut, cut);
 }
 
 impl Tile {

@@ -2,6 +2,7 @@
 //! the schedule.
 
 use crate::same_bytes::{cut, everything, options};
+use crate::shining::{cuboid, rectangle};
 use crate::support::compiled;
 use crate::support::describe::*;
 use scene_format::SceneDesc;
@@ -251,6 +252,58 @@ fn mirrors_and_glass_are_first_hits() {
         assert_eq!(layer::<3>(&film, Layer::Albedo), [expected; 9]);
         assert!(layer::<1>(&film, Layer::Depth).iter().all(|[depth]| (3.0..3.01).contains(depth)));
     }
+}
+
+/// What guides a denoiser is what is seen over mirrors and through glass, times their tints and by its share: the sum
+/// of both ways at a pane, whatever way paths take.
+#[test]
+fn mirrors_and_glass_show_what_guides_denoisers() {
+    let wall = |z: f64, albedo: [f64; 3]| rectangle([0.0, 0.0, z], [0.0, 0.0, -z], [9.0; 2], diffuse(albedo));
+    // The eye looks at a mirror, which shows the wall behind the eye.
+    let (tint, behind) = ([0.9, 0.8, 0.7], [0.1, 0.5, 0.3]);
+    let objects = vec![rectangle([0.0; 3], [0.0, 0.0, 1.0], [4.0; 2], mirror(tint)), wall(6.0, behind)];
+    let seen = |objects: Vec<Object>, count: u32| {
+        let desc = scene(3, vec![], objects).camera([0.0, 0.0, 4.0], [0.0; 3], 2.0).background([1.0; 3]);
+        render(&compiled(&desc), &samples(count), &Unobserved)
+    };
+    let film = seen(objects, 4);
+    let near = |a: [f32; 3], b: [f64; 3], by: f64| (0..3).all(|c| (f64::from(a[c]) - b[c]).abs() < by);
+    let product = [0, 1, 2].map(|c| tint[c] * behind[c]);
+    assert!(layer::<3>(&film, Layer::DenoisingAlbedo).into_iter().all(|albedo| near(albedo, product, 1e-6)));
+    let grey = (0.9 + 0.8 + 0.7) / 3.0;
+    assert!(layer::<3>(&film, Layer::DenoisingNormal).into_iter().all(|n| near(n, [0.0, 0.0, -grey], 1e-6)));
+    // A pane before a wall: of what its two faces reflect, r each, 2r/(1+r) come back to the eye and see the sky, which
+    // is white, and the rest the wall. Paths go both ways at three vertices; further ones are a matter of chance.
+    let r = (0.5f64 / 2.5).powi(2);
+    let back = 2.0 * r / (1.0 + r);
+    let pane = cuboid([0.0; 3], [4.0, 4.0, 0.2], glass(1.5), vec![]);
+    let film = seen(vec![pane, wall(-6.0, behind)], 256);
+    let expected = behind.map(|albedo| back + (1.0 - back) * albedo);
+    let mean = |values: Vec<[f32; 3]>| {
+        let sum = |c: usize| values.iter().map(|value| f64::from(value[c])).sum::<f64>();
+        [0, 1, 2].map(|c| sum(c) / values.len() as f64)
+    };
+    // What is left to chance, r^3, in 2304 samples.
+    let by = 3.0 * (r.powi(3) / 2304.0).sqrt();
+    for (found, expected) in mean(layer(&film, Layer::DenoisingAlbedo)).into_iter().zip(expected) {
+        assert!((found - expected).abs() < by + 1e-5, "{found} {expected} {by}");
+    }
+    let [x, y, z] = mean(layer(&film, Layer::DenoisingNormal));
+    assert!(x.abs() < 1e-6 && y.abs() < 1e-6 && (z - (1.0 - back)).abs() < by + 1e-5, "{z}");
+    // Where there are neither, they are albedo and normal, and white beyond all surfaces.
+    let balls = vec![
+        sphere([0.0; 3], 1.0, diffuse([0.2, 0.4, 0.6])),
+        sphere([0.7, 0.5, 1.0], 0.4, blinn_phong([0.6, 0.4, 0.9], 300.0, 0.2)),
+    ];
+    let plain = scene(24, vec![light([-0.8, 0.9, 1.0], 0.3, [5.0; 3])], balls);
+    let plain = plain.camera([0.0, 0.0, 4.0], [0.0; 3], 45.0).background([1.0; 3]);
+    let film = render(&compiled(&plain), &samples(2), &Unobserved);
+    let alpha = layer::<1>(&film, Layer::Alpha);
+    let both = layer::<3>(&film, Layer::Albedo).into_iter().zip(layer::<3>(&film, Layer::DenoisingAlbedo));
+    for ((first, seen), [alpha]) in both.zip(alpha) {
+        assert!((0..3).all(|c| (first[c] + 1.0 - alpha - seen[c]).abs() < 1e-6), "{first:?} {seen:?} {alpha}");
+    }
+    assert_eq!(layer::<3>(&film, Layer::Normal), layer::<3>(&film, Layer::DenoisingNormal));
 }
 
 /// Whatever of threads, lanes, crop and acceleration.

@@ -3,7 +3,8 @@
 
 use crate::support::compare::{Samples, assert_guiding_is_unbiased, assert_same_picture, assert_sharing_is_unbiased};
 use crate::support::describe::*;
-use crate::support::meshes::torus;
+use crate::support::meshes::{cube, icosphere, torus};
+use crate::support::{compiled, film};
 use scene_format::SceneDesc;
 use scene_format::desc::{Albedo, Conductor, Material, Metal, Reflectance, Shading, Transform};
 
@@ -62,4 +63,34 @@ fn metals_share_and_guide_without_bias() {
     desc.background = [0.0; 3].into();
     assert_sharing_is_unbiased("metals", &desc, 4);
     assert_guiding_is_unbiased("metals", &desc, 256, 4);
+}
+
+/// Under an even sky no metal is brighter than it, whatever its roughness: low-poly meshes whose interpolated normals
+/// are seen from behind along outlines, and a plain to the horizon. By one reflection no sample is; by several their
+/// mean is not.
+#[test]
+fn metals_make_no_light() {
+    let white = |roughness: f64, several: bool| {
+        let reflectance = Reflectance::Tinted { reflectance: [1.0; 3].into(), edge_tint: [1.0; 3].into() };
+        conductor(reflectance, roughness, several)
+    };
+    let of_shape = |shape: u32, material: Material| {
+        let object = match shape {
+            0 => mesh(&icosphere(0).off("icosphere-0"), material, Shading::Smooth, vec![]),
+            1 => mesh(&cube().off("cube"), material, Shading::Smooth, vec![]),
+            _ => sphere([0.0, -1e4, 0.0], 1e4 - 1.0, material),
+        };
+        scene(32, vec![], vec![object]).camera([1.2, 0.8, 2.4], [0.0, -0.2, 0.0], 50.0).background([1.0; 3]).bounces(8)
+    };
+    for (shape, roughness) in (0..3).flat_map(|shape| [0.05, 0.1, 0.3, 0.7].map(|roughness| (shape, roughness))) {
+        for several in [false, true] {
+            let film = film(&compiled(&of_shape(shape, white(roughness, several))), 64, 1);
+            let pixels = (0..32).flat_map(|y| (0..32).map(move |x| (x, y)));
+            let values: Vec<f64> = pixels.map(|(x, y)| film.radiance(x, y)[0]).collect();
+            let (mean, most) = (values.iter().sum::<f64>() / 1024.0, values.iter().copied().fold(0.0, f64::max));
+            // Single precision; and what E is told to between the table's places, at every one of the bounces.
+            let bounds = if several { (1.003, 1.3) } else { (1.0 + 1e-4, 1.0 + 1e-3) };
+            assert!(mean < bounds.0 && most < bounds.1, "{shape} {roughness} {several}: mean {mean}, most {most}");
+        }
+    }
 }

@@ -51,7 +51,7 @@ pub fn rectangle(center: Vec3, normal: Vec3, size: [f64; 2], material: Material)
     }))
 }
 
-fn cuboid(center: Vec3, size: Vec3, material: Material, transform: Vec<Transform>) -> Object {
+pub fn cuboid(center: Vec3, size: Vec3, material: Material, transform: Vec<Transform>) -> Object {
     Object::Box(Box::new(RectBox {
         center: center.into(),
         size: PerAxis(size).into(),

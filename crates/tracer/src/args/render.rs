@@ -43,7 +43,7 @@ pub struct RenderArgs {
     /// Bits per channel of a PNG: 8 or 16
     #[arg(long, value_name = "BITS", value_parser = bits)]
     pub bits: Option<Bits>,
-    /// Samples per pixel; with --noise or --time the most
+    /// Samples per pixel; beside --noise or --time the most
     #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub samples: Option<u32>,
     /// End when the noise is no more than this: 0.01, 1%
@@ -59,7 +59,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
     /// Render this part: the same bytes as in the whole
-    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop, allow_hyphen_values = true)]
     pub crop: Option<Crop>,
     /// Render this part of N, for `tracer merge`: 3/16
     #[arg(long, value_name = "K/N", value_parser = part, conflicts_with_all = ["noise", "time", "format", "bits"])]

@@ -361,12 +361,24 @@ fn words_too_many_have_a_tip() {
         ("render scene.ron b.png", "the picture to write: -o b.png"),
         ("golden new g --scene scene.ron b.ron", "--scene b.ron"),
         ("info scene.ron b.ron", "info takes one scene at a time"),
+        ("render scene.ron --set camera.fov = 20", "without spaces: --set camera.fov=20"),
+        ("render scene.ron --set camera.fov=20 render.seed=3", "--set render.seed=3"),
+        ("render scene.ron --crop -5,0,20,20", "'--crop"),
+        ("render scene.ron --layers depht", "did you mean depth?"),
+        ("-v info scene.ron b.ron", "info takes one scene at a time"),
+        ("--allow W0302 render scene.ron b.ron", "one after the other"),
         ("render scene.ron --frames -1", "counted from 0, as in 0-47, or all"),
         ("render scene.ron --frames 1,3", "frames apart are rendered one range after the other"),
     ] {
         let words: Vec<&str> = line.split(' ').collect();
         sandbox.run(&words).ends(2).says(&[told]);
     }
+    // Options of all commands may stand before the command, or before the scene alone.
+    for line in ["-v scene.ron -o a.png", "--color never scene.ron -o a.png", "--allow W0302 check scene.ron"] {
+        let words: Vec<&str> = line.split(' ').collect();
+        sandbox.run(&words).ends(0);
+    }
+    assert!(!sandbox.run(&["--color", "never", "help"]).ends(0).out.is_empty());
     let help = sandbox.run(&["render", "--help"]).ends(0).out_text();
     assert!(help.contains("--camera") && help.contains("--frame <N>"), "{help}");
 }

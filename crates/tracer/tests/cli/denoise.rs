@@ -86,7 +86,7 @@ fn parts_are_denoised_when_they_are_merged() {
     assert_eq!(names, ["B", "G", "R", "normal.X", "normal.Y", "normal.Z"]);
     let plain = ["merge", "plain1.tracer", "plain2.tracer", "plain3.tracer", "-o", "no.png", "--denoise"];
     let ran = sandbox.run(&plain).ends(2);
-    ran.says(&["--denoise needs what these parts do not hold (albedo", "halves", "render them with --denoise, too"]);
+    ran.says(&["--denoise needs what these parts do not hold (depth", "halves", "render them with --denoise, too"]);
     let mixed = ["merge", "plain1.tracer", "scene.2of3.tracer", "scene.3of3.tracer", "-o", "no.png"];
     sandbox.run(&mixed).ends(2).says(&["is of another rendering"]);
     assert!(!sandbox.files().contains(&"no.png".to_owned()));
@@ -100,7 +100,7 @@ fn checkpoints_hold_what_it_needs() {
     render(&sandbox, &["-s", "19", "-o", "a.exr", "--denoise", "--resume", "c.film"]).ends(0).silent();
     assert_eq!(sandbox.read("a.exr"), sandbox.read("once.exr"));
     let told = sandbox.run(&["info", "c.film"]).ends(0).out_text();
-    assert!(told.contains("emission, halves\n"), "{told}");
+    assert!(told.contains("denoising_normal, halves\n"), "{told}");
     let ran = render(&sandbox, &["-s", "30", "-o", "b.exr", "--resume", "c.film"]).ends(2);
     ran.says(&["the set of layers is ", "halves there and none here"]);
 }

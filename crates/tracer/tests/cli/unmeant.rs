@@ -161,11 +161,34 @@ fn who_is_shut_in_is_told() {
              Transparent(ior: 1.33))"
         )
     };
-    assert_eq!(code("background: 0.5,", &filled("0.4")), ["W0321"]);
+    let deep = |objects: &str| {
+        let scene = scene("background: 0.5,", objects);
+        codes(&sandbox, &scene.replace("samples: 2", "samples: 2, max_bounces: 16"))
+    };
+    assert_eq!(deep(&filled("0.4")), ["W0321"]);
     sandbox.run(&["check", "odd.ron"]).ends(0).says(&["objects[1] and objects[2]"]);
     for apart in ["0.404", "0.396"] {
-        assert!(code("background: 0.5,", &filled(apart)).is_empty(), "{apart}");
+        assert!(deep(&filled(apart)).is_empty(), "{apart}");
     }
+    // Eight sides of glass and the wall behind them are more than five bounces, and told when that is seen.
+    let drink = "Sphere(center: (0, 0, 0), radius: 1, material: Transparent(ior: 1.5)), \
+                 Sphere(center: (0, 0, 0), radius: 0.9, material: Transparent(ior: 1)), \
+                 Sphere(center: (0, 0, 0), radius: 0.8, material: Transparent(ior: 1.5)), \
+                 Sphere(center: (0, 0, 0), radius: 0.7, material: Transparent(ior: 1))";
+    let shown = |bounces: u32| {
+        let camera = "camera: Camera(position: (0, 0, 4), look_at: (0, 0, 0), fov: 40)";
+        let small = format!("image: Image(width: 16, height: 12), render: Render(samples: 2, max_bounces: {bounces})");
+        sandbox.write(
+            "drink.ron",
+            format!(
+                "Scene({camera}, {small}, background: 1, objects: [{drink}, \
+             Rectangle(center: (0, 0, -3), normal: (0, 0, 1), size: 20)])"
+            ),
+        );
+        sandbox.run(&["render", "drink.ron", "-o", "drink.png"])
+    };
+    shown(5).ends(0).says(&["W0322", "see nothing but black", "--set render.max_bounces=16"]);
+    shown(16).ends(0).silent();
     // A mesh with a hole bends light once, too.
     let of_faces = |faces: &str| {
         let points = "(0, 3, 0), (1, 3, 0), (0, 4, 0), (0, 3, 1)";
@@ -328,7 +351,14 @@ fn empty_pictures_are_told() {
     let exposed = |exposure: i32| scene(&format!("background: 0.5, effects: Effects(exposure: {exposure}),"), ball);
     assert_eq!(codes(&sandbox, &exposed(-14)), ["W0308"]);
     assert_eq!(codes(&sandbox, &exposed(-8)), ["W0308"]);
-    assert!(codes(&sandbox, &exposed(-7)).is_empty());
+    // Three quarters of what is seen before the background are dim.
+    assert_eq!(codes(&sandbox, &exposed(-6)), ["W0308"]);
+    assert!(codes(&sandbox, &exposed(-4)).is_empty());
+    // Lamps below the floor.
+    let below = "lights: [SphereLight(center: (0, -3, 0), radius: 0.5, radiance: 10)],";
+    sandbox.write("below.ron", scene(below, "Plane(), Sphere(center: (0, 1, 0), radius: 1)"));
+    let ran = sandbox.run(&["render", "below.ron", "-o", "a.png"]).ends(0);
+    ran.says(&["W0308", "the lights are behind the plane objects[0], which faces (0, 1, 0)"]);
     // The exposure that is told shows it.
     sandbox.write("dark.ron", exposed(-8));
     sandbox.run(&["render", "dark.ron", "-o", "a.png"]).ends(0).says(&["try `--set effects.exposure=0`"]);

@@ -115,6 +115,20 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: kernel_units(&["engine::stages::materials::conductor"]),
     },
     Mutant {
+        name: "metal-by-the-cosine-to-another-normal",
+        file: CONDUCTOR,
+        find: "cos_i / by_callers.max(c(1e-20))",
+        replace: "one",
+        caught_by: kernel_units(&["engine::stages::materials::conductor"]),
+    },
+    Mutant {
+        name: "metal-several-reflections-sampled-evenly",
+        file: CONDUCTOR,
+        find: "let aim = number * self.at(",
+        replace: "let aim = number * number * self.at(",
+        caught_by: kernel_units(&["engine::stages::materials::conductor"]),
+    },
+    Mutant {
         name: "metal-sampled-by-all-normals",
         file: CONDUCTOR,
         find: "let height = one - u * (one + stretched.2);",

@@ -56,10 +56,24 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["direct::"]),
     },
     Mutant {
+        name: "guides-see-without-tints",
+        file: "crates/kernels/src/engine/stages/seen.rs",
+        find: "weight: ray.throughput.scale(ray.eta2),",
+        replace: "weight: V3::grey(ray.eta2),",
+        caught_by: proofs(&["layers::mirrors_and_glass_show_what_guides_denoisers"]),
+    },
+    Mutant {
+        name: "guides-see-both-ways-in-full",
+        file: "crates/kernels/src/engine/stages/seen.rs",
+        find: "weight: ray.throughput.scale(ray.eta2),",
+        replace: "weight: ray.throughput,",
+        caught_by: proofs(&["layers::mirrors_and_glass_show_what_guides_denoisers"]),
+    },
+    Mutant {
         name: "misses-do-not-count",
         file: FILM,
-        find: "Pixel::Mean | Pixel::Counted(_) => tile.samples[k].max(1)",
-        replace: "Pixel::Mean | Pixel::Counted(_) => hits.max(1)",
+        find: "Pixel::Mean | Pixel::Seen | Pixel::Counted(_) => tile.samples[k].max(1)",
+        replace: "Pixel::Mean | Pixel::Seen | Pixel::Counted(_) => hits.max(1)",
         caught_by: proofs(&["layers::layers_are_averaged_as_the_picture_is"]),
     },
     Mutant {

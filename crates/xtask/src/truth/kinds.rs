@@ -127,6 +127,19 @@ fn plain_room(world: &mut World, random: &mut Random) {
     room.camera(world, -0.7, 0.7, random);
 }
 
+/// A room, and a lamp of any brightness in a black ball beside it, of which nothing gets out.
+fn shut_in_lamp(world: &mut World, random: &mut Random) {
+    if once_in(random, 2) {
+        casters(world, random)
+    } else {
+        plain_room(world, random)
+    }
+    let (direction, away) = (random.direction(), random.between(12.0, 30.0));
+    let (at, radius) = (direction.to_array().map(|x| away * x), random.between(0.1, 1.0));
+    world.lamp(at, radius, [draw::magnitude(random, 1.0, 1e12); 3]);
+    world.sphere(at, 1.2 * radius, matt(0.0));
+}
+
 fn casters(world: &mut World, random: &mut Random) {
     plain_room(world, random);
     let room = Room { half: 2.0, height: 2.5, deep: 2.0 };
@@ -460,7 +473,7 @@ type Kind = (&'static str, fn(&mut World, &mut Random), Relation, bool);
 
 /// All kinds, drawn alike.
 #[rustfmt::skip]
-pub const KINDS: [Kind; 17] = [
+pub const KINDS: [Kind; 19] = [
     ("plain room", plain_room, Relation::Path, false),
     ("casters", casters, Relation::Path, false),
     ("bulbs", bulbs, Relation::Path, false),
@@ -478,6 +491,8 @@ pub const KINDS: [Kind; 17] = [
     ("unfolded", unfolded, Relation::Unfolded, false),
     ("flipped", casters, Relation::Flipped, false),
     ("ring", super::rings::ring, Relation::Path, false),
+    ("shut-in lamp", shut_in_lamp, Relation::ShutIn, false),
+    ("furnace", super::furnace::furnace, Relation::Furnace, false),
 ];
 
 /// Whether a pattern lies in the scene's space, whatever is done to what it is on.

@@ -13,6 +13,7 @@ pub mod curved;
 mod dark_shell;
 pub mod draw;
 pub mod examine;
+mod furnace;
 pub mod judge;
 pub mod kinds;
 pub mod made;

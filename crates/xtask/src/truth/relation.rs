@@ -27,6 +27,10 @@ pub enum Relation {
     Twice,
     /// It is that with copies stored in the other way.
     Instances,
+    /// It is that without the lamps that are shut in balls.
+    ShutIn,
+    /// Nothing is brighter than the white sky.
+    Furnace,
     /// It is black.
     Dark,
 }
@@ -42,7 +46,8 @@ impl Relation {
             Relation::Sum => (0..world.desc.lights.len()).map(|k| with_one_lamp(world, k)).collect(),
             Relation::Twice => vec![with_light_times(world, 2.0)],
             Relation::Instances => vec![stored_otherwise(world)],
-            Relation::Dark => Vec::new(),
+            Relation::ShutIn => vec![without_shut_in(world)],
+            Relation::Furnace | Relation::Dark => Vec::new(),
         }
     }
 }
@@ -54,6 +59,20 @@ fn without_shells(world: &World) -> World {
     };
     let mut other = world.clone();
     other.desc.objects.retain(|object| !shell(&object.value));
+    other
+}
+
+fn without_shut_in(world: &World) -> World {
+    let mut other = world.clone();
+    let is_shut_in = |Light::SphereLight(lamp): &Light| {
+        world.desc.objects.iter().any(|object| {
+            let Object::Sphere(ball) = &object.value else { return false };
+            let (ball_at, at) = (ball.center.value, lamp.center.value);
+            let apart = (0..3).map(|k| (ball_at[k] - at[k]).powi(2)).sum::<f64>().sqrt();
+            ball.transform.is_empty() && apart + lamp.radius.value < ball.radius.value
+        })
+    };
+    other.desc.lights.retain(|light| !is_shut_in(&light.value));
     other
 }
 

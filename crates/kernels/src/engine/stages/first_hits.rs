@@ -66,7 +66,7 @@ pub fn first_hits<F: Lanes>(scene: &Scene, seed: u32, layers: LayerSet, batch: &
                     }
                     nearest += 1;
                 }
-                Pixel::Counted(_) | Pixel::Direct | Pixel::Indirect => sum += channels.len(),
+                Pixel::Seen | Pixel::Counted(_) | Pixel::Direct | Pixel::Indirect => sum += channels.len(),
                 Pixel::OfFilm(_) => {}
             }
         }

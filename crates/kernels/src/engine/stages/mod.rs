@@ -15,6 +15,7 @@ pub mod photons;
 pub mod planes;
 pub mod points;
 pub mod reach;
+pub mod seen;
 pub mod shade;
 pub mod shaft;
 pub mod shapes;

@@ -12,7 +12,7 @@ mod sharing;
 mod vertex;
 
 pub use mis::weight_of_ratio;
-pub use vertex::{Vertex, leaves};
+pub use vertex::{Ray, Vertex, has, leaves};
 
 use super::cameras::View;
 use super::materials::Bsdf;
@@ -24,11 +24,13 @@ use crate::sampling::blocks::{Item, Pixels};
 use crate::sampling::sampler::Purpose;
 use crate::scene::Scene;
 use scatter::Onward;
-use vertex::{Ray, has};
 
 /// From this vertex on (0 = first hit) a path goes on with a probability that falls with its throughput. Earlier,
 /// roulette throws away the stratification that the sampler pays for.
 pub const ROULETTE_FROM: u32 = 3;
+
+/// Paths that carry less than this when they are cut could show little: light that is caught in a glass ball.
+const LEAST_CUT: f32 = 0.25;
 
 /// Shades the hits of vertex `vertex`; the paths that go on are in `batch.paths` afterwards, their shadow rays in
 /// `batch.shadows`. Where pixels share (`pass.reuse`, see [`super::share`]), their vertices are added to
@@ -57,6 +59,8 @@ pub fn shade<F: Lanes>(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut B
         let lamp = ray.hit & !s.light.eq(F::U::splat(0));
         stage.emission((&ray, &s), (paths, hits), shown, lamp & !aimed, &mut seen);
         seen.add(radiance, ray.sum());
+        let cut = stage.cut(&ray, ray.hit & !lamp);
+        batch.counters.cut += u64::from(cut.count() as u32);
         let surfaces = stage.scattering(&ray, ray.hit & !lamp);
         if !surfaces.any() {
             continue;
@@ -141,6 +145,17 @@ impl<'a, F: Lanes> Stage<'a, F> {
     #[inline(always)]
     fn aimed(&self, ray: &Ray<F>) -> F::M {
         if self.pass.guide.is_some() { ray.valid & has(ray.slot, path::AIMED) } else { F::M::from_bits(0) }
+    }
+
+    /// Of lanes that hit a surface, those that came over mirrors and glass only, and see nothing there since they may
+    /// scatter no more.
+    #[inline(always)]
+    fn cut(&self, ray: &Ray<F>, surfaces: F::M) -> F::M {
+        if self.vertex <= self.scene.max_bounces || self.pass.task == Task::Chains {
+            return F::M::from_bits(0);
+        }
+        let carried = ray.throughput.max_component() * ray.eta2;
+        surfaces & !has(ray.slot, path::NOT_FOLLOWED) & F::splat(LEAST_CUT).lt(carried)
     }
 
     /// Of lanes that hit a surface those that it scatters.

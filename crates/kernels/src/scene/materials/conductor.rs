@@ -103,6 +103,9 @@ pub struct ConductorTable {
     pub rows: Table<13>,
     /// 1 - E at the cosines (k / (STEPS - 1))^2, [`ggx::STEPS`] for each conductor.
     pub losses: Vec<f32>,
+    /// What of 1 - E, cosine-weighted, lies below these cosines: 2 times the integral of (1 - E) c dc, 1 - E linear
+    /// between the steps as it is told. By its differences the lobe of several reflections is sampled.
+    pub sums: Vec<f32>,
     /// Of each row, 1 where it is the first of several; empty where all have one.
     pub several: Vec<u32>,
 }
@@ -111,19 +114,22 @@ impl ConductorTable {
     /// `None` where there are none.
     pub fn new<'a>(conductors: impl Iterator<Item = &'a Conductor>) -> Option<Self> {
         let (mut rows, mut losses, mut several) = (Vec::new(), Vec::new(), Vec::new());
+        let mut sums = Vec::new();
         for conductor in conductors {
             several.push(u32::from(conductor.alpha().is_none()));
             for alpha in conductor.alphas() {
                 let energy = ggx::Energy::of(if alpha < LEAST_ALPHA { 0.0 } else { alpha });
                 rows.push(row(conductor, alpha, energy.average));
-                losses.extend(energy.by_cosine.map(|e| (1.0 - e) as f32));
+                let lost = energy.by_cosine.map(|e| 1.0 - e);
+                losses.extend(lost.map(|lost| lost as f32));
+                sums.extend(ggx::sums(&lost.map(|lost| lost.max(0.0))).map(|sum| sum as f32));
             }
             several.resize(rows.len(), 0);
         }
         if several.iter().all(|&first| first == 0) {
             several = Vec::new();
         }
-        (!rows.is_empty()).then(|| ConductorTable { rows: Table::new(rows), losses, several })
+        (!rows.is_empty()).then(|| ConductorTable { rows: Table::new(rows), losses, sums, several })
     }
 }
 

@@ -21,7 +21,7 @@ impl Energy {
         let low = (place as usize).min(STEPS - 2);
         let t = place - low as f64;
         let by_cosine: [f64; STEPS] = std::array::from_fn(|k| (1.0 - t) * TABLE[low][k] + t * TABLE[low + 1][k]);
-        Energy { by_cosine, average: average(&by_cosine) }
+        Energy { by_cosine, average: sums(&by_cosine)[STEPS - 1] }
     }
 }
 
@@ -31,18 +31,19 @@ static TABLE: LazyLock<Vec<[f64; STEPS]>> = LazyLock::new(|| {
     (0..STEPS).map(|r| std::array::from_fn(|k| reflected(share(r) * share(r), share(k) * share(k)))).collect()
 });
 
-/// 2 times the integral of what is linear in t = sqrt(mu) between the table's places: 2 E mu dmu = 4 E t^3 dt.
-fn average(by_cosine: &[f64; STEPS]) -> f64 {
+/// 2 times the integrals of what is linear in t = sqrt(mu) between the table's places, up to each of them: 2 E mu dmu =
+/// 4 E t^3 dt.
+pub fn sums(by_cosine: &[f64; STEPS]) -> [f64; STEPS] {
     let step = 1.0 / (STEPS - 1) as f64;
-    let mut sum = 0.0;
+    let mut sums = [0.0; STEPS];
     for (k, pair) in by_cosine.windows(2).enumerate() {
         let (a, b) = (k as f64 * step, (k + 1) as f64 * step);
         let slope = (pair[1] - pair[0]) / step;
         let fourth = |x: f64| x * x * x * x;
         let (moment_4, moment_5) = ((fourth(b) - fourth(a)) / 4.0, (fourth(b) * b - fourth(a) * a) / 5.0);
-        sum += 4.0 * ((pair[0] - slope * a) * moment_4 + slope * moment_5);
+        sums[k + 1] = sums[k] + 4.0 * ((pair[0] - slope * a) * moment_4 + slope * moment_5);
     }
-    sum
+    sums
 }
 
 /// E = integral of G2/G1 over the visible normals, by a grid of their samples (Dupuy and Benyoub 2023).

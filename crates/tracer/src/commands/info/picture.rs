@@ -63,6 +63,9 @@ fn as_text(path: &Path, told: &Told, record: Option<Result<Record, String>>) -> 
     let Told { encoding, width, height, software, comment, scene, .. } = told;
     let kind = encoding.name().to_uppercase();
     line("picture", format!("{}, {kind}, {} bits, {width}x{height} pixels", path.display(), bits(*encoding)));
+    if !told.layers.is_empty() {
+        line("layers", told.layers.join(", "));
+    }
     let not_told = || "not told".to_owned();
     let held = scene.as_ref().map_or("its text is not in the picture".to_owned(), |scene| {
         format!("its text is in the picture, {} bytes", scene.len())
@@ -112,6 +115,7 @@ fn as_json(path: &Path, told: &Told, record: Option<Result<Record, String>>) -> 
         "picture": path,
         "format": told.encoding.name(),
         "bits": bits(told.encoding),
+        "layers": told.layers,
         "width": told.width,
         "height": told.height,
         "software": told.software,

@@ -1,7 +1,7 @@
 //! Pictures that show nothing, or next to nothing.
 
 use scene_format::codes::Code;
-use scene_format::desc::{Background, Integrator, ToneMap};
+use scene_format::desc::{Background, Integrator, Light, Object, ToneMap};
 use scene_format::{Diagnostic, SceneDesc, codes};
 use tracer_core::{Crop, Film, Scene};
 
@@ -42,49 +42,86 @@ fn of_picture(film: &Film, desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic
 
 /// What is hard to tell from black on a screen: 10 of 255, by the slope of sRGB next to black (IEC 61966-2-1).
 const DARK: f64 = 10.0 / 255.0 / 12.92;
+/// What is seen, but hardly what it is: 38 of 255.
+const DIM: f64 = 0.02;
 /// What clipping has taken the colour of.
 const WHITE: f64 = 2.0;
+/// Of so many pixels that are not of the background alone something is said; of fewer, the rest may be meant.
+const MOST_BACKGROUND: f64 = 0.9;
 
-/// Of a picture in which there is light, but 99 of 100 pixels are dark.
+/// Of a picture in which there is light, but 99 of 100 pixels are dark, or three quarters of what is no background dim.
 fn dark(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
-    let brightest = || shown(film, desc, |radiance| radiance.into_iter().fold(0.0, f64::max));
-    let pixels = film.size().map(|side| side as usize).iter().product::<usize>();
-    let is_dark =
-        is_plain(desc) && pixels > 0 && brightest().filter(|light| *light >= DARK).nth(pixels / 100).is_none();
-    // Of little in the dark the rest may be meant: stars.
-    let most = if is_dark { brightest().fold(0.0, f64::max) } else { 0.0 };
-    if most == 0.0 || most >= 0.5 {
+    if !is_plain(desc) {
         return None;
     }
-    let mut sorted: Vec<f64> = brightest().collect();
-    let (_, bright, _) = sorted.select_nth_unstable_by(pixels - 1 - pixels / 100, f64::total_cmp);
-    let of = if *bright > 0.0 { *bright } else { most };
-    let message = "the picture is so dark that nearly all is black";
-    Some(
-        Diagnostic::warning(codes::ALL_BLACK, desc.effects.exposure.span, message)
-            .expected("what is seen between black, 0, and white, 1")
-            .hint(way(desc, 0.5 / of, "brighter lights")),
-    )
+    let brightest = |radiance: [f64; 3]| radiance.into_iter().fold(0.0, f64::max);
+    let all: Vec<f64> = shown(film, desc, brightest).collect();
+    let most = all.iter().copied().fold(0.0, f64::max);
+    let is_dark = all.iter().filter(|light| **light >= DARK).nth(all.len() / 100).is_none();
+    // Of little in the dark the rest may be meant: stars.
+    if is_dark && most > 0.0 && most < 0.5 {
+        let bright = at_share(all, 0.99);
+        let of = if bright > 0.0 { bright } else { most };
+        return Some(too_dark(desc, "the picture is so dark that nearly all is black", of));
+    }
+    let lit = without_background(film, desc, brightest);
+    if is_dark || (lit.len() as f64) < (1.0 - MOST_BACKGROUND) * all.len() as f64 {
+        return None;
+    }
+    let bright = at_share(lit, 0.75);
+    (bright < DIM).then(|| too_dark(desc, "most of the picture is nearly black", 2.0 * bright))
 }
 
-/// Of a picture three quarters of which are white twice over, in every channel.
+/// The picture is; `of`: what ought to be half of white.
+fn too_dark(desc: &SceneDesc, message: &'static str, of: f64) -> Diagnostic {
+    Diagnostic::warning(codes::ALL_BLACK, desc.effects.exposure.span, message)
+        .expected("what is seen between black, 0, and white, 1")
+        .hint(way(desc, 0.5 / of, "brighter lights"))
+}
+
+/// Of a picture three quarters of which are white twice over, in every channel, or of that which is no background.
 fn white(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
-    let least = || shown(film, desc, |radiance| radiance.into_iter().fold(f64::INFINITY, f64::min));
-    let pixels = film.size().map(|side| side as usize).iter().product::<usize>();
-    if !is_plain(desc) || pixels == 0 || least().filter(|light| *light < WHITE).nth(pixels / 4).is_some() {
+    if !is_plain(desc) {
         return None;
     }
-    let mut sorted: Vec<f64> = least().collect();
-    let (_, pale, _) = sorted.select_nth_unstable_by(pixels / 4, f64::total_cmp);
-    let message = match least().all(|light| light >= WHITE) {
-        true => "the picture is white",
-        false => "most of the picture is white",
+    let least = |radiance: [f64; 3]| radiance.into_iter().fold(f64::INFINITY, f64::min);
+    let all: Vec<f64> = shown(film, desc, least).collect();
+    let seen = without_background(film, desc, least);
+    let is_white = |of: &[f64]| of.iter().filter(|light| **light < WHITE).nth(of.len() / 4).is_none();
+    let message = match &*all {
+        [] => return None,
+        all if all.iter().all(|&light| light >= WHITE) => "the picture is white",
+        all if is_white(all) => "most of the picture is white",
+        all if (seen.len() as f64) < (1.0 - MOST_BACKGROUND) * all.len() as f64 || !is_white(&seen) => return None,
+        _ => "most of what is seen before the background is white",
     };
+    let pale = if message.contains("before") { at_share(seen, 0.25) } else { at_share(all, 0.25) };
     Some(
         Diagnostic::warning(codes::ALL_WHITE, desc.effects.exposure.span, message)
             .expected("what is seen between black, 0, and white, 1")
-            .hint(way(desc, 0.5 / *pale, "a darker background, darker lights")),
+            .hint(way(desc, 0.5 / pale, "a darker background, darker lights")),
     )
+}
+
+/// The number below which this share of some lies; there are some.
+fn at_share(mut of: Vec<f64>, share: f64) -> f64 {
+    let place = ((of.len() - 1) as f64 * share) as usize;
+    *of.select_nth_unstable_by(place, f64::total_cmp).1
+}
+
+/// What is brightest or least of those pixels that are not the background alone, nor black.
+fn without_background(film: &Film, desc: &SceneDesc, of: impl Fn([f64; 3]) -> f64) -> Vec<f64> {
+    let background = match &desc.background {
+        Background::Color(color) => color.map(|x| x as f32),
+        Background::Environment(_) => [0.0; 3],
+    };
+    let exposed = desc.effects.exposure.value.exp2();
+    let [width, height] = film.size();
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let radiance = pixels.map(|(x, y)| film.radiance(x, y));
+    let near = |a: f64, b: f32| (a - f64::from(b)).abs() <= 1e-5 * f64::from(b);
+    let plain = |pixel: &[f64; 3]| *pixel == [0.0; 3] || (0..3).all(|c| near(pixel[c], background[c]));
+    radiance.filter(|pixel| !plain(pixel)).map(|pixel| exposed * of(pixel)).collect()
 }
 
 /// Whether the picture shows light as it is: a curve lifts what is dark and brings back what is bright, and before a
@@ -122,7 +159,10 @@ fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     };
     if first == [0.0; 3] {
         // Whether a scene has light at all is told before.
-        let hint = if background == [0.0; 3] {
+        let behind = behind_a_plane(desc);
+        let hint = if let Some(why) = &behind {
+            why
+        } else if background == [0.0; 3] {
             "look at where the camera stands and looks, and whether a light reaches what it sees"
         } else {
             "not even the background is seen: the camera stands within an object or right before one; move it"
@@ -144,4 +184,26 @@ fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
             .expected("objects between the camera and where it looks")
             .hint("set `look_at` to the middle of an object; `tracer info` tells where the objects are")
     })
+}
+
+/// That the camera or all lamps are on the other side of a plane that lets no light through.
+fn behind_a_plane(desc: &SceneDesc) -> Option<String> {
+    let planes = desc.objects.iter().enumerate().filter_map(|(k, object)| match &object.value {
+        Object::Plane(plane) if plane.transform.is_empty() => Some((k, plane)),
+        _ => None,
+    });
+    let eye = desc.camera.position.value;
+    let center = |Light::SphereLight(lamp): &Light| lamp.center.value;
+    let lamps: Vec<[f64; 3]> = desc.lights.iter().map(|light| center(&light.value)).collect();
+    for (k, plane) in planes {
+        let (point, normal) = (plane.point.value, plane.normal.value);
+        let height = |p: [f64; 3]| (0..3).map(|c| (p[c] - point[c]) * normal[c]).sum::<f64>();
+        if lamps.is_empty() || lamps.iter().any(|lamp| (height(*lamp) < 0.0) == (height(eye) < 0.0)) {
+            continue;
+        }
+        let who = if height(eye) < 0.0 { "the camera is" } else { "the lights are" };
+        let facing = normal.map(|x| format!("{x}")).join(", ");
+        return Some(format!("{who} behind the plane objects[{k}], which faces ({facing}): move them, or the plane"));
+    }
+    None
 }

@@ -1,6 +1,7 @@
 //! `tracer render`: a scene becomes pictures, and a report.
 
 mod asked;
+mod cut;
 mod empty;
 pub(super) mod frames;
 mod goals;

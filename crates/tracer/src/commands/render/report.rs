@@ -133,6 +133,7 @@ fn samples(counters: &Counters, before: &Before, seconds: f64) -> Samples {
         per_second: per_second(counters.camera_rays, before.counters.camera_rays, seconds),
         dropped: counters.dropped,
         beyond: counters.beyond,
+        cut: counters.cut,
     }
 }
 

@@ -5,7 +5,7 @@ use super::kept::Kept;
 use super::picture::Picture;
 use super::ready::Ready;
 use super::rendered::Rendered;
-use super::{empty, repeat};
+use super::{cut, empty, repeat};
 use crate::args::RenderArgs;
 use crate::checkpoint::part_told;
 use crate::progress::{noise_of, rate};
@@ -40,8 +40,9 @@ pub(super) fn of_picture(
         shell.say(&denoised.to_text());
     }
     of_film(film, args, desc, shell);
-    let warning = empty::warning(film, desc, &ready.scene);
-    shell.diagnostics(warning.as_slice(), &desc.sources, args.scene.diagnostics);
+    let warnings: Vec<_> =
+        empty::warning(film, desc, &ready.scene).into_iter().chain(cut::warning(film, desc)).collect();
+    shell.diagnostics(&warnings, &desc.sources, args.scene.diagnostics);
     if !shell.is_told() {
         return;
     }

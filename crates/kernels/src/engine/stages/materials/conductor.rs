@@ -1,10 +1,10 @@
 //! The lobes of metals over lanes: GGX with Smith's height-correlated shadowing and masking (Walter et al. 2007; Heitz
-//! 2014), and what is reflected several times (Kulla and Conty 2017), a Lambert-like lobe that is sampled with the
-//! probability 1 - E(mu_o).
+//! 2014), and what is reflected several times (Kulla and Conty 2017), a lobe that is sampled with the probability
+//! 1 - E(mu_o), by (1 - E(mu_i)) mu_i as it is: by mu_i alone a smooth metal had weights of a hundred at grazing
+//! angles, where nearly all that it loses is.
 
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::{V3, sincos_turns};
-use crate::sampling::warp;
 use crate::scene::{ConductorTable, GGX_STEPS};
 use std::f32::consts::FRAC_1_PI;
 
@@ -133,30 +133,64 @@ impl<F: Lanes> Conductor<F> {
         f * f * self.energy / (one - f * (one - self.energy))
     }
 
-    /// 1 - E at a cosine.
+    /// 1 - E at a cosine, and the step that begins below it.
     #[inline(always)]
-    fn loss(&self, table: &ConductorTable, cos: F) -> F {
+    fn loss(&self, table: &ConductorTable, cos: F) -> (F, F::U) {
         let c = F::splat;
         let place = cos.max(c(0.0)).min(c(1.0)).sqrt() * c((GGX_STEPS - 1) as f32);
         let low = place.min(c((GGX_STEPS - 2) as f32)).to_int();
-        let t = place - F::from_int(low);
-        let at = self.losses + low;
-        let (a, b) = (F::gather(&table.losses, at), F::gather(&table.losses, at + F::U::splat(1)));
-        let loss = (b - a).fma(t, a);
-        if table.several.is_empty() {
-            return loss;
-        }
-        let at = self.more + low;
-        let (a, b) = (F::gather(&table.losses, at), F::gather(&table.losses, at + F::U::splat(1)));
-        ((b - a).fma(t, a) - loss).fma(self.between, loss)
+        let (here, next) = (self.at(table, &table.losses, low), self.at(table, &table.losses, low + F::U::splat(1)));
+        ((next - here).fma(place - F::from_int(low), here), low)
     }
 
-    /// f and the density of [`Conductor::sample`]; both cosines are more than zero, elsewhere the density is zero.
+    /// Number `step` of the row of one of the tables by cosine, or between those of two rows.
+    #[inline(always)]
+    fn at(&self, table: &ConductorTable, of: &[f32], step: F::U) -> F {
+        let here = F::gather(of, self.losses + step);
+        if table.several.is_empty() {
+            return here;
+        }
+        (F::gather(of, self.more + step) - here).fma(self.between, here)
+    }
+
+    /// The density of a direction of the lobe of several reflections, over that of a cosine-weighted one: the same in
+    /// all of a step of the table.
+    #[inline(always)]
+    fn crowding(&self, table: &ConductorTable, step: F::U) -> F {
+        let (from, to) = (squares::<F>(step), squares::<F>(step + F::U::splat(1)));
+        let within = self.at(table, &table.sums, step + F::U::splat(1)) - self.at(table, &table.sums, step);
+        let all = self.at(table, &table.sums, F::U::splat(GGX_STEPS as u32 - 1));
+        within / ((to - from) * all.max(F::splat(1e-30)))
+    }
+
+    /// A direction of the lobe of several reflections: a step by its share of what is lost, by a number from 0 to 1,
+    /// and cosine-weighted within it.
+    #[inline(always)]
+    fn sample_several(&self, table: &ConductorTable, ns: V3<F>, u: F, v: F, number: F) -> V3<F> {
+        let one = F::splat(1.0);
+        let aim = number * self.at(table, &table.sums, F::U::splat(GGX_STEPS as u32 - 1));
+        let mut step = F::U::splat(0);
+        for width in [16, 8, 4, 2, 1] {
+            let next = step + F::U::splat(width);
+            let is_there = next.lt(F::U::splat(GGX_STEPS as u32 - 1));
+            let next = F::U::select(is_there, next, step);
+            step = F::U::select(self.at(table, &table.sums, next).le(aim), next, step);
+        }
+        let (from, to) = (squares::<F>(step), squares::<F>(step + F::U::splat(1)));
+        let cos2 = (to - from).fma(u, from).min(one);
+        let (sin, cos) = sincos_turns(v);
+        let radius = (one - cos2).sqrt();
+        ns.to_world(V3(radius * cos, radius * sin, cos2.sqrt()))
+    }
+
+    /// f times the cosine of wi to the normal that is seen over that to `ns`, which is what callers multiply by, and
+    /// the density of [`Conductor::sample`]. Both cosines are more than zero, elsewhere the density is zero.
     #[inline(always)]
     pub fn evaluate(&self, table: &ConductorTable, ns: V3<F>, wo: V3<F>, wi: V3<F>) -> (V3<F>, F) {
         let c = F::splat;
         let (zero, one) = (c(0.0), c(1.0));
-        let ns = seen(ns, wo);
+        let by_callers = ns.dot(wi);
+        let (ns, raised) = seen(ns, wo);
         let (cos_o, cos_i) = (ns.dot(wo), ns.dot(wi));
         let above = zero.lt(cos_o) & zero.lt(cos_i);
         let (cos_o, cos_i) = (cos_o.max(c(1e-7)), cos_i.max(c(1e-7)));
@@ -177,7 +211,7 @@ impl<F: Lanes> Conductor<F> {
         let mut f = self.fresnel(h2.sqrt() * c(0.5)).scale(once);
         let mut pdf = visible;
         if zero.lt(self.scale).any() {
-            let (loss_o, loss_i) = (self.loss(table, cos_o), self.loss(table, cos_i));
+            let ((loss_o, _), (loss_i, step)) = (self.loss(table, cos_o), self.loss(table, cos_i));
             let (n, color, average) = (self.n, self.color, self.average);
             let several = V3(
                 self.several(color.0, n.0, average.0),
@@ -186,20 +220,30 @@ impl<F: Lanes> Conductor<F> {
             );
             f = f.add(several.scale(loss_o * loss_i * self.scale));
             let p = F::select(zero.lt(self.scale), loss_o, zero);
-            pdf = p.fma(cos_i * c(FRAC_1_PI), (one - p) * visible);
+            pdf = p.fma(self.crowding(table, step) * cos_i * c(FRAC_1_PI), (one - p) * visible);
         }
-        (V3::select(above, f, V3::grey(zero)), F::select(above, pdf, zero))
+        let mut lit = above;
+        if raised.any() {
+            lit = above & (!raised | zero.lt(by_callers));
+            f = f.scale(F::select(raised & lit, cos_i / by_callers.max(c(1e-20)), one));
+        }
+        (V3::select(lit, f, V3::grey(zero)), F::select(above, pdf, zero))
     }
 
-    /// A direction: wo reflected in one of the normals that it sees (Dupuy and Benyoub 2023, algorithm 3), or
-    /// cosine-weighted where `lobe` is below the probability of that.
+    /// A direction: wo reflected in one of the normals that it sees (Dupuy and Benyoub 2023, algorithm 3), or of the
+    /// lobe of several reflections where `lobe` is below the probability of that.
     #[inline(always)]
     pub fn sample(&self, table: &ConductorTable, ns: V3<F>, wo: V3<F>, u: F, v: F, lobe: F) -> V3<F> {
-        let zero = F::splat(0.0);
+        let (zero, one) = (F::splat(0.0), F::splat(1.0));
         let reflected = self.sample_visible(ns, wo, u, v);
-        let ns = seen(ns, wo);
-        let p = F::select(zero.lt(self.scale), self.loss(table, ns.dot(wo)), zero);
-        V3::select(lobe.lt(p), ns.to_world(warp::cosine_hemisphere(u, v)), reflected)
+        let (ns, _) = seen(ns, wo);
+        let p = F::select(zero.lt(self.scale), self.loss(table, ns.dot(wo)).0, zero);
+        let several = lobe.lt(p);
+        if !several.any() {
+            return reflected;
+        }
+        let number = lobe / F::select(several, p, one);
+        V3::select(several, self.sample_several(table, ns, u, v, number), reflected)
     }
 
     /// wo reflected in one of the normals that it sees.
@@ -207,7 +251,7 @@ impl<F: Lanes> Conductor<F> {
     pub fn sample_visible(&self, ns: V3<F>, wo: V3<F>, u: F, v: F) -> V3<F> {
         let c = F::splat;
         let (zero, one) = (c(0.0), c(1.0));
-        let ns = seen(ns, wo);
+        let (ns, _) = seen(ns, wo);
         let (t, b) = ns.basis();
         let z = wo.dot(ns).max(zero);
         // Stretched so that the lobe is a hemisphere.
@@ -230,7 +274,7 @@ impl<F: Lanes> Conductor<F> {
     pub fn visible_weight(&self, ns: V3<F>, wo: V3<F>, wi: V3<F>) -> V3<F> {
         let c = F::splat;
         let (zero, one) = (c(0.0), c(1.0));
-        let ns = seen(ns, wo);
+        let (ns, _) = seen(ns, wo);
         let (cos_o, cos_i) = (ns.dot(wo), ns.dot(wi));
         let above = zero.lt(cos_o) & zero.lt(cos_i);
         let (cos_o, cos_i) = (cos_o.max(c(1e-7)), cos_i.max(c(1e-7)));
@@ -245,16 +289,24 @@ impl<F: Lanes> Conductor<F> {
 }
 
 /// The shading normal, raised towards the viewer where he would see it from behind or nearly so, which interpolated
-/// ones are along outlines: else there would be black dots.
+/// ones are along outlines: else there would be black dots. With the lanes where it is.
 #[inline(always)]
-fn seen<F: Lanes>(ns: V3<F>, wo: V3<F>) -> V3<F> {
+fn seen<F: Lanes>(ns: V3<F>, wo: V3<F>) -> (V3<F>, F::M) {
     let c = F::splat;
     let missing = c(LEAST_COSINE) - ns.dot(wo);
     let low = c(0.0).lt(missing);
     if !low.any() {
-        return ns;
+        return (ns, low);
     }
-    V3::select(low, wo.mad(missing, ns).normalise(), ns)
+    (V3::select(low, wo.mad(missing, ns).normalise(), ns), low)
+}
+
+/// The squared cosine at which a step of the tables begins.
+#[inline(always)]
+fn squares<F: Lanes>(step: F::U) -> F {
+    let root = F::from_int(step) * F::splat(1.0 / (GGX_STEPS - 1) as f32);
+    let cos = root * root;
+    cos * cos
 }
 
 /// b of the F82-tint model.
