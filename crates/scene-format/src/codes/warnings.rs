@@ -48,7 +48,8 @@ codes! {
     /// ```
     LIGHT_SHUT_IN "W0307" "a light is shut in";
     /// The rendered picture is black: no light reaches what the camera sees, or so little that 99 of 100 pixels can
-    /// hardly be told from black. The message says which `exposure` would show it.
+    /// hardly be told from black, or three quarters of those that are not of the background alone are dim, below 0.02
+    /// of white. The message says which `exposure` would show it.
     ALL_BLACK "W0308" "the picture is black";
     /// The camera looks past all objects: all of them lie beside the view, or behind it, or the rendered picture shows
     /// nothing but the background.
@@ -133,15 +134,17 @@ codes! {
     /// and one of them above 100, is a colour in bytes: write it as `"#87ceeb"`. So is light whose channels are
     /// whole numbers, different, the largest of them 255. A `fov` from 0.2 to 2 that is no half or whole number, and
     /// `degrees` that are pi, a half, a third, a quarter or a sixth of it or a multiple of these, are radians. An
-    /// `exposure` above 10 is in stops, which double what is seen each, and makes a background more than 500 times as
-    /// bright as white.
+    /// `aperture` that is an f-number, as 2.8, and more than a fifth of the way to what is sharp, is a lens as wide as
+    /// that. An `exposure` above 10 is in stops, which double what is seen each, and makes a background more than 500
+    /// times as bright as white.
     ///
     /// ```ron
     /// Scene(background: (135, 206, 235), objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     OTHER_SCALE "W0317" "a number on another scale";
     /// The rendered picture is white: three quarters of its pixels and more are twice as bright as white in all
-    /// channels. Take a darker background or lights, or a lower `exposure`; the message says which.
+    /// channels, or three quarters of those that are not of the background alone. Take a darker background or lights,
+    /// or a lower `exposure`; the message says which.
     ALL_WHITE "W0318" "the picture is white";
     /// A `Rectangle` or `Box` lies in one plane with others that are seen in its place, all of it: a rug at the
     /// height of the floor. Of surfaces in one plane what shines is seen, then what lets no light through, then what

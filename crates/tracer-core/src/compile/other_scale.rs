@@ -1,7 +1,9 @@
 //! Numbers that are surely meant on another scale: radians where degrees stand, light as a colour in bytes, an
-//! exposure in other units.
+//! exposure in other units, an f-number where the lens's width stands.
 
-use scene_format::desc::{Albedo, Amount, Color, Light, Material, MaterialRef, Projection, Transform, with_operands};
+use scene_format::desc::{
+    Albedo, Amount, Color, Focus, Light, Material, MaterialRef, Projection, Transform, with_operands,
+};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::f64::consts::PI;
@@ -15,6 +17,11 @@ const TURNS: [f64; 9] = [1.0 / 6.0, 0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 0.75, 1.0, 
 const MOST_STOPS: f64 = 10.0;
 /// A background this many times as bright as white is not meant.
 const MOST_WHITE: f64 = 500.0;
+
+/// The numbers on the rings of lenses.
+const F_NUMBERS: [f64; 15] = [1.2, 1.4, 1.8, 2.0, 2.2, 2.4, 2.8, 3.5, 4.0, 4.5, 5.6, 8.0, 11.0, 16.0, 22.0];
+/// A lens wider than this share of the way to what is sharp is looked at.
+const WIDE: f64 = 0.2;
 
 /// Warns of them, each kind once. `behind`: the brightest channels of the background.
 pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
@@ -59,6 +66,7 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
                 .hint(format!("write `color: \"=blackbody({kelvin})\"`")),
         );
     }
+    diagnostics.extend(f_number(desc));
     let exposure = &desc.effects.exposure;
     let brightest = behind.iter().fold(0.0, |most: f64, channel| most.max(*channel)) * libm::exp2(exposure.value);
     if exposure.value > MOST_STOPS && brightest > MOST_WHITE {
@@ -70,6 +78,29 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
                 .hint("write `exposure: 0`, and look at the picture"),
         );
     }
+}
+
+/// A lens whose width is an f-number.
+fn f_number(desc: &SceneDesc) -> Option<Diagnostic> {
+    let lens = desc.effects.depth_of_field.as_ref()?;
+    let aperture = lens.aperture.value;
+    let eye = desc.camera.position.value;
+    let away = match lens.focus.value {
+        Focus::Distance(away) => away,
+        Focus::On(point) => (0..3).map(|c| (point[c] - eye[c]) * (point[c] - eye[c])).sum::<f64>().sqrt(),
+    };
+    if !F_NUMBERS.contains(&aperture) || aperture <= WIDE * away {
+        return None;
+    }
+    let message = format!("a lens {aperture} wide, before what is {away:.3} away; it looks like an f-number");
+    Some(
+        Diagnostic::warning(codes::OTHER_SCALE, lens.aperture.span, message)
+            .expected("the diameter of the lens, in the scene's unit: its focal length over the f-number")
+            .hint(format!(
+                "a hundredth of the distance, `aperture: {:.2}`, blurs as a portrait lens does",
+                0.01 * away
+            )),
+    )
 }
 
 /// The first light whose three numbers are whole, the largest of them 255, and not all the same: light has no upper

@@ -126,7 +126,10 @@ fn light_shut_in(lamps: &[&Lamp], index: usize, of_object: Span) -> Option<Diagn
     };
     Some(
         Diagnostic::warning(codes::LIGHT_SHUT_IN, first.span, message)
-            .hint("move it out, or make the object of Transparent(ior: 1.5)")
+            .hint(
+                "move it out; or open the object, a Cylinder or Cone by `caps: false`, others by a Difference; or make \
+                 it of Transparent(ior: 1.5)",
+            )
             .label(of_object, "this object is not seen through"),
     )
 }

@@ -44,7 +44,7 @@ pub enum FilmError {
     #[error("it cannot be read: {0}")]
     Io(#[from] io::Error),
     /// It is something else.
-    #[error("it is no film")]
+    #[error("it is no checkpoint, and no part of a picture")]
     Foreign,
     /// It is of a later version of this library.
     #[error("it has version {0} of the format; this program knows version {FORMAT}")]

@@ -245,7 +245,7 @@ fn a_damaged_file_falls_back_to_the_one_before() {
     for (bad, why) in [
         (&good[..good.len() / 3], "cut short"),
         (&flipped[..], "damaged"),
-        (&foreign[..], "it is no film"),
+        (&foreign[..], "it is no checkpoint"),
         (&[][..], "cut short"),
     ] {
         sandbox.write("c.film", bad);

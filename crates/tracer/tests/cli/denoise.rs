@@ -66,6 +66,8 @@ fn parts_are_denoised_when_they_are_merged() {
         let name = format!("plain{}.tracer", &part[..1]);
         render(&sandbox, &["-s", "7", "--part", part, "-o", &name]).ends(0);
     }
+    let told = sandbox.run(&["render", "scene.ron", "-s", "2", "--part", "1/2", "--denoise", "-o", "told.tracer"]);
+    told.ends(0).says(&["`tracer merge .. --denoise`"]);
     let parts = ["merge", "scene.1of3.tracer", "scene.3of3.tracer", "scene.2of3.tracer"];
     let outputs = ["-o", "all.exr", "-o", "all.png", "--denoise", "--report", "r.json"];
     sandbox.run(&[&parts[..], &outputs].concat()).ends(0).says(&["denoised in "]);

@@ -459,6 +459,14 @@ fn numbers_on_another_scale_are_told() {
     assert_eq!(code("background: 0.5,", &ring("2*pi*i/8")), ["W0317"]);
     sandbox.run(&["check", "odd.ron"]).ends(0).says(&["`cos(2*pi*i/8)`", "write `cos(2*180*i/8)`"]);
     assert!(code("background: 0.5, /* \"=cos(pi)\" */", &ring("360*i/8")).is_empty());
+    let lens =
+        |words: &str| code(&format!("background: 0.5, effects: Effects(depth_of_field: ThinLens({words})),"), ball);
+    assert_eq!(lens("aperture: 2.8, focus_distance: 6"), ["W0317"]);
+    for meant in
+        ["aperture: 0.28, focus_distance: 6", "aperture: 2.8, focus_distance: 60", "aperture: 2.7, focus_distance: 6"]
+    {
+        assert!(lens(meant).is_empty(), "{meant}");
+    }
     assert_eq!(code("background: 0.5, effects: Effects(exposure: 12),", ball), ["W0317", "W0318"]);
     assert!(code("background: 0.0005, effects: Effects(exposure: 11),", ball).is_empty());
     let shining = |light: &str| code("", &format!("Sphere(center: (0, 3, 0), radius: 1, material: Emissive({light}))"));

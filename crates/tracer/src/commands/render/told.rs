@@ -47,6 +47,10 @@ pub(super) fn of_picture(
         return;
     }
     shell.say(&match asked.part {
+        Some(part) if args.denoise.is_on() => {
+            let part = part_told(Some(part));
+            format!("{names} in {seconds:.2} s: {part}; it is denoised when it is merged: `tracer merge .. --denoise`")
+        }
         Some(part) => format!("{names} in {seconds:.2} s: {}", part_told(Some(part))),
         None => format!("{names} in {seconds:.2} s, {}", speed_and_noise(rendered, picture)),
     });
