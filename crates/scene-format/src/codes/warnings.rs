@@ -186,7 +186,7 @@ codes! {
     /// The rendered picture is black where more is to be seen in mirrors or through glass: one in a hundred samples and
     /// more were ended by `max_bounces` before they had met anything else. Each mirror and each side of glass is a
     /// bounce: a drink in a glass has eight sides. Set `max_bounces` higher; the message says how high. (Rays that are
-    /// caught between mirrors without any loss are ended by nothing else.)
+    /// caught between mirrors without any loss are ended by nothing else. Who asks for no bounce or one has meant it.)
     ///
     /// ```text
     /// Scene(render: Render(max_bounces: 3), background: 1, objects: [

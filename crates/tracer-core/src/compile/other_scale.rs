@@ -92,13 +92,14 @@ fn f_number(desc: &SceneDesc) -> Option<Diagnostic> {
     if !F_NUMBERS.contains(&aperture) || aperture <= WIDE * away {
         return None;
     }
-    let message = format!("a lens {aperture} wide, before what is {away:.3} away; it looks like an f-number");
+    let digits = |x: f64| (x * 1e4).ceil() / 1e4;
+    let message = format!("a lens {aperture} wide, before what is {} away; it looks like an f-number", digits(away));
     Some(
         Diagnostic::warning(codes::OTHER_SCALE, lens.aperture.span, message)
             .expected("the diameter of the lens, in the scene's unit: its focal length over the f-number")
             .hint(format!(
-                "a hundredth of the distance, `aperture: {:.2}`, blurs as a portrait lens does",
-                0.01 * away
+                "a hundredth of the distance, `aperture: {}`, blurs as a portrait lens at f/4 does",
+                digits(0.01 * away)
             )),
     )
 }

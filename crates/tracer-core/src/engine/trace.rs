@@ -88,11 +88,12 @@ fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     closest(engine, vertex == 0, batch);
     if for_layers {
         engine.kernels.first_hits(engine.seen, pass.seed, pass.layers, batch);
+        batch.watch.lap(Stage::Layers);
     }
     if engine.is_first && pass.layers.seen().next().is_some() {
         engine.kernels.seen(engine.seen, pass.layers, vertex, batch);
+        batch.watch.lap(Stage::Layers);
     }
-    batch.watch.lap(Stage::Layers);
 }
 
 /// Which shadow rays arrive, and what they bring.

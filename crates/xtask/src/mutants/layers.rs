@@ -59,7 +59,7 @@ pub const MUTANTS: &[Mutant] = &[
         name: "guides-see-without-tints",
         file: "crates/kernels/src/engine/stages/seen.rs",
         find: "weight: ray.throughput.scale(ray.eta2),",
-        replace: "weight: V3::grey(ray.eta2),",
+        replace: "weight: crate::math::V3::grey(ray.eta2),",
         caught_by: proofs(&["layers::mirrors_and_glass_show_what_guides_denoisers"]),
     },
     Mutant {

@@ -186,7 +186,7 @@ fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     })
 }
 
-/// That the camera or all lamps are on the other side of a plane that lets no light through.
+/// Of a black picture: that the camera or all lamps are on the other side of a plane.
 fn behind_a_plane(desc: &SceneDesc) -> Option<String> {
     let planes = desc.objects.iter().enumerate().filter_map(|(k, object)| match &object.value {
         Object::Plane(plane) if plane.transform.is_empty() => Some((k, plane)),
