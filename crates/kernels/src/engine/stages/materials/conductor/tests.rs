@@ -361,7 +361,7 @@ fn no_sample_is_worth_much_more_than_one() {
                 // their mean there: they fall to an eighth within one at most.
                 let bound = if several { 8.0 } else { 1.0 + 1e-3 };
                 assert!(most < bound, "alpha {alpha}, several {several}, at {cos}: {most}");
-                // As in the furnace, and 154 means: five standard errors, and what is linear between the table's places.
+                // As in the furnace: five standard errors of 154 means, and 3e-3 between the table's places.
                 let e = Estimate::of(&weights);
                 let at = format!("alpha {alpha}, several {several}, at {cos}");
                 assert!(e.mean < 1.0 + 5.0 * e.error() + 3e-3, "{at}: {} +- {}", e.mean, e.error());
