@@ -2,7 +2,7 @@
 //! (2014), and the compensation of Kulla and Conty (2017).
 
 use super::mirror::reflect;
-use super::{Incident, Rough, Scattered};
+use super::{Incident, Rough, Scattered, seen};
 use crate::random::{Random, about, polar};
 use crate::surface::Surface;
 use glam::DVec3;
@@ -94,12 +94,6 @@ impl Rough for Conductor {
         let of_h = distribution(self.alpha, n.dot(h)) * n.dot(h).max(0.0);
         0.5 * n.dot(wi).max(0.0) / PI + 0.5 * of_h / (4.0 * wo.dot(h).abs())
     }
-}
-
-/// Interpolated normals that are seen from behind, or nearly so, are raised towards the viewer.
-fn seen(n: DVec3, wo: DVec3) -> DVec3 {
-    let missing = (1e-3 - n.dot(wo)).max(0.0);
-    (n + missing * wo).normalize()
 }
 
 /// D (Walter et al. 2007, eq. 33).

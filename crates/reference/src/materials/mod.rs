@@ -27,6 +27,12 @@ pub trait Rough {
     fn density(&self, n: DVec3, wo: DVec3, wi: DVec3) -> f64;
 }
 
+/// Interpolated normals that are seen from behind, or nearly so, are raised towards the viewer.
+fn seen(n: DVec3, wo: DVec3) -> DVec3 {
+    let missing = (1e-3 - n.dot(wo)).max(0.0);
+    (n + missing * wo).normalize()
+}
+
 /// A direction that light comes from, and its weight f cos / p.
 pub struct Incident {
     pub direction: DVec3,

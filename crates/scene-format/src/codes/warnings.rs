@@ -195,6 +195,37 @@ codes! {
     /// ])
     /// ```
     CUT_PATHS "W0322" "ended where more is to be seen";
+    /// Nothing is left of an `Intersection` or a `Difference`: its parts have no place in common, or what is taken away
+    /// covers the first part. Lines through its box have met nothing (4096 of them). Write `Union` in its place for
+    /// once to see where its parts are.
+    ///
+    /// ```text
+    /// objects: [
+    ///     Intersection(objects: [Sphere(center: (0, 0, 0), radius: 1), Sphere(center: (2, 1, 0), radius: 1)]),
+    ///     Difference(objects: [Box(size: 1), Sphere(center: (0, 0, 0), radius: 2)]),
+    /// ]
+    /// ```
+    NOTHING_LEFT "W0323" "a solid of which nothing is left";
+    /// A `Difference` takes something away from where its first part is not, so it changes nothing. Move it there, or
+    /// leave it out. Of copies by `Repeat` some may lie beside it.
+    ///
+    /// ```text
+    /// objects: [
+    ///     Difference(objects: [
+    ///         Box(size: 1),
+    ///         Cylinder(from: (2, -1, 0), to: (2, 1, 0), radius: 0.25),
+    ///     ]),
+    /// ]
+    /// ```
+    TAKES_NOTHING "W0324" "something is taken away where nothing is";
+    /// An object or a lamp lies wholly behind a `Plane` that nobody sees through, as the camera sees it: a ball at
+    /// `y: -1` under a floor at 0. (`y` is up; a ball that lies on the floor has its center one radius above.) Lift it,
+    /// or leave it out. What moves while the shutter is open is not looked at.
+    ///
+    /// ```text
+    /// objects: [Plane(), Sphere(center: (0, -2, 0), radius: 1)]
+    /// ```
+    BEHIND_PLANE "W0325" "something behind a plane";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron

@@ -21,7 +21,7 @@ pub(super) fn of_kelvins(text: &str, at: &FieldDef) -> Option<String> {
 }
 
 /// Numbers in the brackets of the syntax.
-fn vector(item: Item<'_, '_>, numbers: &[&str]) -> String {
+pub(super) fn vector(item: Item<'_, '_>, numbers: &[&str]) -> String {
     match item.syntax() {
         Syntax::Ron => format!("({})", numbers.join(", ")),
         Syntax::Toml | Syntax::Json => format!("[{}]", numbers.join(", ")),
@@ -119,6 +119,9 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
         return Some(format!("\"=blackbody({kelvin})\""));
     }
     match item.kind() {
+        Kind::Integer | Kind::Float => {
+            grid(item, at).map(|found| vector(item, &found.each_ref().map(|number| &**number)))
+        }
         Kind::Tuple => {
             let name = item.name()?.to_ascii_lowercase();
             if let ("hex" | "html" | "rgbhex", true, Some(hex)) = (&*name, at.rule.color, hex_of_call(item)) {
@@ -148,6 +151,25 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
         Kind::Word if at.rule.color => named_color(item.lexeme()).map(|hex| format!("\"{hex}\"")),
         _ => None,
     }
+}
+
+/// What one or two numbers of a grid of copies mean: so many on the ground, 9 being three times three, so far apart.
+pub(super) fn grid(item: Item<'_, '_>, at: &FieldDef) -> Option<[String; 3]> {
+    if !at.noun.ends_with("of a grid") {
+        return None;
+    }
+    let one = || "1".to_owned();
+    if let Some(number) = item.number() {
+        let lexeme = item.lexeme().to_owned();
+        let side = number.sqrt();
+        return Some(match at.name {
+            "count" if side.fract() == 0.0 => [format!("{side}"), one(), format!("{side}")],
+            "count" => [lexeme, one(), one()],
+            _ => [lexeme.clone(), lexeme.clone(), lexeme],
+        });
+    }
+    let [across, deep] = <[&str; 2]>::try_from(numbers(item)?).ok()?;
+    Some([across.to_owned(), one(), deep.to_owned()])
 }
 
 /// `position.x = 0` and so on, a line for each number in TOML: what to write.
@@ -306,6 +328,15 @@ impl Reader<'_> {
     /// A colour, a picture or a bare name where a material stands: reports it, and says that it did.
     pub(crate) fn material_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
         let lexeme = item.lexeme();
+        if let Some(mended) = quoted_alone(item) {
+            let message = format!("`{}` is not a kind of material", item.name().unwrap_or_default());
+            let mut fault = Diagnostic::error(codes::UNKNOWN_VARIANT, item.head(), message)
+                .expected("the name of a material between quotes, or a material written here")
+                .hint(format!("write {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            self.report(fault);
+            return true;
+        }
         let diffuse = match item.syntax() {
             Syntax::Ron => format!("Diffuse(albedo: {lexeme})"),
             Syntax::Toml => format!("{{ Diffuse = {{ albedo = {lexeme} }} }}"),
@@ -369,6 +400,15 @@ impl Reader<'_> {
         self.report(fault);
         true
     }
+}
+
+/// `"oak"` for `Material("oak")`, which is a name.
+fn quoted_alone(item: Item<'_, '_>) -> Option<String> {
+    const WORDS: [&str; 5] = ["material", "mat", "materialref", "ref", "named"];
+    let is_word = item.kind() == Kind::Tuple && WORDS.contains(&&*item.name()?.to_ascii_lowercase());
+    let mut children = item.children();
+    let name = children.next().filter(|child| is_word && child.kind() == Kind::Text)?;
+    children.next().is_none().then(|| name.lexeme().to_owned())
 }
 
 /// A place from the beginning of a name to the end of its value.

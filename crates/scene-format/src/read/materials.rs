@@ -230,7 +230,7 @@ impl Reader<'_> {
                 );
             }
             let value = self.picked(value);
-            let elsewhere = value.is_some_and(|value| self.material_elsewhere(value));
+            let elsewhere = value.is_some_and(|value| self.material_by_word(value) || self.material_elsewhere(value));
             let material = value.filter(|_| !elsewhere).and_then(|value| Material::read(self, value, at));
             if let (true, Some(number), Some(material)) = (replaces, known, &material)
                 && let Some(old) = self.materials.read.get_mut(number as usize)
@@ -262,6 +262,23 @@ impl Reader<'_> {
             self.unknown_material(&name, item);
         }
         Some((*name).into())
+    }
+
+    /// A colour, a metal or a kind of glass by its name where a material is written, `"red"`: reports it, and says that
+    /// it did.
+    fn material_by_word(&mut self, item: Item<'_, '_>) -> bool {
+        let text = item.text();
+        if item.kind() != Kind::Text || Material::DEF.variant(&text).is_some() {
+            return false;
+        }
+        let Some(mended) = told_by_name(&text, item.syntax()) else { return false };
+        let message = format!("a material cannot be {}", super::describe(item));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+            .expected("a material, with its fields")
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        true
     }
 
     fn unknown_material(&mut self, name: &str, item: Item<'_, '_>) {
@@ -330,6 +347,14 @@ impl Reader<'_> {
 
 /// What is most likely meant by the name of a material: its colour, metal or kind of glass where the name tells it.
 fn by_its_name(name: &str, syntax: Syntax) -> String {
+    told_by_name(name, syntax).unwrap_or_else(|| match syntax {
+        Syntax::Ron => "Diffuse(albedo: 0.5)".to_owned(),
+        syntax => syntax.of_toml("{ Diffuse = { albedo = 0.5 } }").into_owned(),
+    })
+}
+
+/// The same, where a word of the name tells it.
+fn told_by_name(name: &str, syntax: Syntax) -> Option<String> {
     let word = |word: &str| {
         let clear = match word {
             "glass" | "window" | "bottle" => "1.5",
@@ -349,10 +374,10 @@ fn by_its_name(name: &str, syntax: Syntax) -> String {
     };
     let lower = name.to_ascii_lowercase();
     let found = lower.split(|c: char| !c.is_ascii_alphabetic()).take(8).find_map(word);
-    let (kind, field, value) = found.unwrap_or(("Diffuse", "albedo", "0.5".to_owned()));
-    match syntax {
+    let (kind, field, value) = found?;
+    Some(match syntax {
         Syntax::Ron => format!("{kind}({field}: {value})"),
         _ if field == "metal" => syntax.of_toml(format!("{{ {kind} = {{ {field} = \"{value}\" }} }}")).into_owned(),
         syntax => syntax.of_toml(format!("{{ {kind} = {{ {field} = {value} }} }}")).into_owned(),
-    }
+    })
 }

@@ -77,33 +77,32 @@ impl Reader<'_> {
 
     /// `{ translate: (0, 1, 0), rotate: (0, 45, 0) }` where a list of transforms stands: reported, with what they are.
     pub(super) fn transforms_in_braces<T>(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<T> {
-        let steps = item.fields().map(|(key, value)| {
-            let name = key.text().to_ascii_lowercase();
-            let three = numbers(value).and_then(|numbers| <[&str; 3]>::try_from(numbers).ok());
-            Some(match (&*name, three) {
-                ("translate" | "translation" | "position" | "location" | "move", Some(by)) => vec![translation(by)],
-                ("scale", Some(by)) => vec![scaling(by)],
-                ("rotate" | "rotation" | "rotation_euler", Some(degrees)) => all_angles(degrees),
-                _ => return None,
-            })
-        });
-        let steps: Option<Vec<Vec<Meant>>> = steps.collect();
         let expected = match item.syntax() {
             Syntax::Ron => "a list: [Translate((x, y, z)), Rotate(axis: (x, y, z), degrees: ..)]",
             _ => "a list of transforms",
         };
-        let edit = steps.map(|steps| listed(&steps.concat(), item.syntax())).or_else(|| each_by_itself(item));
+        let edit = steps_of_fields(item).or_else(|| each_by_itself(item));
         self.wrong_kind(item, at.noun, expected, edit)
     }
 
-    /// Numbers where a placement stands, which is a list of transforms: reports it, and says that it did.
+    /// Numbers or fields where a placement stands, which is a list of transforms: reports it, and says that it did.
     pub(crate) fn placement_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
-        let bare = matches!(item.kind(), Kind::Tuple | Kind::List) && item.name().is_none();
-        let Some(numbers) = numbers(item).filter(|_| bare) else { return false };
         let expected = match item.syntax() {
             Syntax::Ron => "[Translate((x, y, z))]".into(),
             syntax => syntax.of_toml("[{ Translate = [x, y, z] }]"),
         };
+        if matches!(item.kind(), Kind::Struct | Kind::Map) && item.name().is_none() {
+            let Some(mended) = steps_of_fields(item) else { return false };
+            let message = "a placement is a list of transforms, not a group of fields";
+            let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+                .expected(expected)
+                .hint(format!("write {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            self.report(fault);
+            return true;
+        }
+        let bare = matches!(item.kind(), Kind::Tuple | Kind::List) && item.name().is_none();
+        let Some(numbers) = numbers(item).filter(|_| bare) else { return false };
         let message = format!("a placement is a list of transforms, not of {} numbers", numbers.len());
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
         if let [x, y, z] = numbers[..] {
@@ -129,6 +128,22 @@ impl Reader<'_> {
         self.report(fault);
         true
     }
+}
+
+/// `position: (0, 1, 0), rotation: (0, 45, 0)` as a list of transforms.
+fn steps_of_fields(item: Item<'_, '_>) -> Option<String> {
+    let steps = item.fields().map(|(key, value)| {
+        let name = key.text().to_ascii_lowercase();
+        let three = numbers(value).and_then(|numbers| <[&str; 3]>::try_from(numbers).ok());
+        Some(match (&*name, three) {
+            ("translate" | "translation" | "position" | "location" | "move", Some(by)) => vec![translation(by)],
+            ("scale", Some(by)) => vec![scaling(by)],
+            ("rotate" | "rotation" | "rotation_euler", Some(degrees)) => all_angles(degrees),
+            _ => return None,
+        })
+    });
+    let steps: Option<Vec<Vec<Meant>>> = steps.collect();
+    steps.map(|steps| listed(&steps.concat(), item.syntax()))
 }
 
 /// One transform without its list, as it is written here within one: `[Translate((1, 0, 0))]`; `None` where it is

@@ -154,6 +154,10 @@ impl Reader<'_> {
         } else if let Some(mended) = colors_elsewhere::without_alpha(item, at, right) {
             fault = fault.hint(format!("colours have no alpha here: write {mended}"));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        } else if let Some(mended) = elsewhere::grid(item, at).filter(|_| count == 2) {
+            let replacement = elsewhere::vector(item, &mended.each_ref().map(|number| &**number));
+            fault = fault.hint(format!("y is up: write {replacement}"));
+            fault.edit = Some(Edit { span: item.span(), replacement });
         } else if at.rule.color && count == 4 {
             fault = fault.hint(match at.name {
                 "background" => "colours have no alpha here; a picture without background: output: Output(alpha: true)",
@@ -193,6 +197,9 @@ impl Reader<'_> {
         }
         if let Kind::List | Kind::Tuple = item.kind() {
             return self.numbers(item, at, names);
+        }
+        if let Some(mended) = colors_elsewhere::numbers_in_text(item, N) {
+            return self.wrong_kind(item, at.noun, &expected_for(at, item), Some(mended));
         }
         let number = self.number(item, at)?;
         Some([self.check(number, item, at, "")?; N])

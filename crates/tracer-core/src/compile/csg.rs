@@ -3,6 +3,7 @@
 //! Surfaces of different operands that are one and the same get the same numbers here, once for all copies: so lines
 //! meet them at the same places to the last bit, and where faces coincide nothing is between them.
 
+mod left;
 mod shining;
 
 use super::assets::Sources;
@@ -12,6 +13,7 @@ use super::materials::MaterialBuilder;
 use super::placing::{Given, Maps, Subject, check, place, place_all};
 use super::settled::Settled;
 use glam::{DAffine3, DMat3, DMat4, DVec3, DVec4};
+pub use left::warn;
 use scene_format::desc::{Emissive, MaterialRef, Object};
 use scene_format::diagnostic::Spanned;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};

@@ -2,6 +2,7 @@
 //! The second hand.
 
 mod assets;
+mod behind_planes;
 mod bodies;
 mod camera;
 mod csg;
@@ -196,6 +197,8 @@ fn warn(desc: &SceneDesc, gathered: &mut Gathered<'_>) {
     shut_in::warn(desc, &shut_in::Made { loaded, placed, curved, solids }, diagnostics);
     dark_lamps::warn(desc, assigned, diagnostics);
     hidden_flat::warn(desc, placed, diagnostics);
+    behind_planes::warn(desc, placed, (curved, solids), diagnostics);
+    csg::warn(desc, solids, diagnostics);
     shared_walls::warn(desc, placed, (curved, solids), &finished.materials, diagnostics);
     curved::warn_of_open_glass(desc, diagnostics);
     other_scale::warn(desc, background.brightest(), diagnostics);

@@ -53,6 +53,14 @@ fn existing_frames_are_skipped_only_when_asked() {
     assert_eq!(sandbox.text("a_1.png"), "PF mine");
     sandbox.run(&line).ends(0);
     assert_ne!(sandbox.read("a_1.png"), b"PF mine");
+    // What was made of another text is told, and left as it is.
+    let again = || sandbox.run(&[&line[..], &["--skip-existing"]].concat()).ends(0).err;
+    assert!(!again().contains("another text"), "{}", again());
+    sandbox.write("film.ron", sandbox.text("film.ron") + "// More.\n");
+    std::fs::remove_file(sandbox.path("a_0.png")).expect("a picture");
+    let told = again();
+    assert!(told.contains("warning: 2 pictures were there") && told.contains("(a_1.png, ..)"), "{told}");
+    assert!(again().contains("warning: 2 pictures"), "{}", again());
     // What is no picture is told before the first frame is made.
     sandbox.write("b_1.png", "mine");
     let line = ["render", "film.ron", "--frames", "0-2", "-o", "b_#.png"];

@@ -37,3 +37,4 @@ mod teaching;
 mod terminal;
 mod tutorial;
 mod unmeant;
+mod unseen;

@@ -31,7 +31,7 @@ fn cube(outwards: bool) -> String {
 }
 
 /// A scene of some objects, its camera at (0, 1, 6).
-fn scene(top: &str, objects: &str) -> String {
+pub fn scene(top: &str, objects: &str) -> String {
     format!(
         "Scene(camera: Camera(position: (0, 1, 6), look_at: (0, 0.5, 0)), image: Image(width: 16, height: 16), \
          render: Render(samples: 2), {top} objects: [{objects}])"
@@ -39,7 +39,7 @@ fn scene(top: &str, objects: &str) -> String {
 }
 
 /// The codes of warnings that both commands give.
-fn codes(sandbox: &Sandbox, scene: &str) -> Vec<String> {
+pub fn codes(sandbox: &Sandbox, scene: &str) -> Vec<String> {
     sandbox.write("odd.ron", scene);
     let of = |arguments: &[&str]| -> Vec<String> {
         let ran = sandbox.run(&[arguments, &["--diagnostics", "json"]].concat()).ends(0);

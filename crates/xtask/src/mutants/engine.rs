@@ -9,6 +9,7 @@ const EMISSION: &str = "crates/kernels/src/engine/stages/shade/emission.rs";
 const BSDF: &str = "crates/kernels/src/engine/stages/materials/mod.rs";
 const BLINN_PHONG: &str = "crates/kernels/src/engine/stages/materials/blinn_phong.rs";
 const CONDUCTOR: &str = "crates/kernels/src/engine/stages/materials/conductor.rs";
+const SEEN_NORMAL: &str = "crates/kernels/src/engine/stages/materials/seen.rs";
 const DIELECTRIC: &str = "crates/kernels/src/engine/stages/materials/dielectric.rs";
 const SURFACE_AT: &str = "crates/kernels/src/engine/stages/surface_at.rs";
 const LIGHTS: &str = "crates/kernels/src/engine/stages/lights/mod.rs";
@@ -115,11 +116,18 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: kernel_units(&["engine::stages::materials::conductor"]),
     },
     Mutant {
-        name: "metal-by-the-cosine-to-another-normal",
-        file: CONDUCTOR,
-        find: "cos_i / by_callers.max(c(1e-20))",
+        name: "gloss-by-the-cosine-to-another-normal",
+        file: SEEN_NORMAL,
+        find: "cos_i / by_callers.max(F::splat(1e-20))",
         replace: "one",
-        caught_by: kernel_units(&["engine::stages::materials::conductor"]),
+        caught_by: kernel_units(&["engine::stages::materials"]),
+    },
+    Mutant {
+        name: "gloss-black-from-behind-its-normal",
+        file: SEEN_NORMAL,
+        find: "c(LEAST_COSINE) - ns.dot(wo)",
+        replace: "c(-LEAST_COSINE - 2.0) - ns.dot(wo)",
+        caught_by: kernel_units(&["engine::stages::materials"]),
     },
     Mutant {
         name: "metal-several-reflections-sampled-evenly",

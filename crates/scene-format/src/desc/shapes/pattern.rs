@@ -29,7 +29,7 @@ scene_enum! {
             turn: bool = true;
         };
         /// By chance, evenly over a box.
-        Scatter as "scattered copies" {
+        Scatter as "a scattering of copies" {
             /// How many.
             count: u32 => Rule::within("a whole number", 1.0, 1e7);
             /// A corner of the box.

@@ -267,6 +267,11 @@ impl Words for Placements {
                 });
                 Some(if list.is_empty() { Placements::One } else { list.into() })
             }
+            // It stands in a list, also where it is all of it.
+            Kind::Struct if item.name() == Some("Repeat") => {
+                let edit = Some(format!("[{}]", item.lexeme()));
+                reader.wrong_kind(item, at.noun, "a list: [Repeat(count: .., items: [[a transform, ..]])]", edit)
+            }
             _ if names_a_pattern(item) => {
                 let pattern = <Spanned<PlacementPattern>>::read(reader, item, at)?;
                 reader.takes_copies(item, pattern.value.count()).then(|| pattern.into())

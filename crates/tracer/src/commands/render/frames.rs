@@ -171,6 +171,7 @@ pub(super) fn run(
     interrupt::listen(*shell)?;
     let (first, last, desc) = range(&args, frames, shell)?;
     spare_inputs(&args, first..=last, &desc)?;
+    let text = desc.sources.first().map(|source| source.text.clone()).unwrap_or_default();
     drop(desc);
     if args.part.is_none() && args.show.is_none() {
         let desc = super::described(&at(&args, first), &shell.without_warnings())?;
@@ -180,6 +181,7 @@ pub(super) fn run(
     let all = last - first + 1;
     // Not asked again: what is written meanwhile is rendered.
     let there: Vec<u32> = (first..=last).filter(|&frame| args.skip_existing && is_there(&args, frame)).collect();
+    tell_of_others(&args, &there, &text, shell);
     let (mut made, mut skipped) = (0, 0);
     let shell = &shell.of_film();
     for frame in first..=last {
@@ -231,6 +233,31 @@ fn is_there(args: &RenderArgs, frame: u32) -> bool {
     }
     let is_there = |path: &PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);
     numbered(&at(args, frame)).is_ok_and(|args| args.output.iter().chain(&args.report).all(is_there))
+}
+
+/// Warns of pictures that are left as they are and were made of another text than the scene has now, as far as they
+/// tell.
+fn tell_of_others(args: &RenderArgs, there: &[u32], text: &str, shell: &Shell) {
+    let is_other = |path: &Path| {
+        let told = tracer_picture::told(path).ok().and_then(|told| told.scene);
+        told.is_some_and(|made_of| made_of != text)
+    };
+    let of_frame = |&frame: &u32| numbered(&at(args, frame)).ok();
+    let others: Vec<PathBuf> = there
+        .iter()
+        .filter_map(of_frame)
+        .filter_map(|args| args.output.into_iter().find(|path| is_other(path)))
+        .collect();
+    let Some(first) = others.first() else { return };
+    let (first, count) = (first.display(), others.len());
+    let which = match count {
+        1 => format!("{first} was there and is left as it is, but was"),
+        _ => format!("{count} pictures were there and are left as they are, but were"),
+    };
+    let example = if count == 1 { String::new() } else { format!(" ({first}, ..)") };
+    shell.warn(&format!(
+        "{which} made of another text than the scene has now{example}; without --skip-existing they are made anew"
+    ));
 }
 
 /// How the frames that are left are rendered, without losing what one was begun with.

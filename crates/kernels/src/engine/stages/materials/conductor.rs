@@ -3,13 +3,11 @@
 //! 1 - E(mu_o), by (1 - E(mu_i)) mu_i as it is: by mu_i alone a smooth metal had weights of a hundred at grazing
 //! angles, where nearly all that it loses is.
 
+use super::seen::{raised_cosine, seen};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::{V3, sincos_turns};
 use crate::scene::{ConductorTable, GGX_STEPS};
 use std::f32::consts::FRAC_1_PI;
-
-/// The viewer's cosine is not less than about this.
-const LEAST_COSINE: f32 = 1e-3;
 
 /// Parameters of the metals' lanes.
 #[derive(Clone, Copy)]
@@ -222,12 +220,10 @@ impl<F: Lanes> Conductor<F> {
             let p = F::select(zero.lt(self.scale), loss_o, zero);
             pdf = p.fma(self.crowding(table, step) * cos_i * c(FRAC_1_PI), (one - p) * visible);
         }
-        let mut lit = above;
         if raised.any() {
-            lit = above & (!raised | zero.lt(by_callers));
-            f = f.scale(F::select(raised & lit, cos_i / by_callers.max(c(1e-20)), one));
+            f = f.scale(raised_cosine(raised, cos_i, by_callers));
         }
-        (V3::select(lit, f, V3::grey(zero)), F::select(above, pdf, zero))
+        (V3::select(above, f, V3::grey(zero)), F::select(above, pdf, zero))
     }
 
     /// A direction: wo reflected in one of the normals that it sees (Dupuy and Benyoub 2023, algorithm 3), or of the
@@ -286,19 +282,6 @@ impl<F: Lanes> Conductor<F> {
         let weight = self.fresnel(h.dot(h).sqrt() * c(0.5)).scale(share);
         V3::select(above, weight, V3::grey(zero))
     }
-}
-
-/// The shading normal, raised towards the viewer where he would see it from behind or nearly so, which interpolated
-/// ones are along outlines: else there would be black dots. With the lanes where it is.
-#[inline(always)]
-fn seen<F: Lanes>(ns: V3<F>, wo: V3<F>) -> (V3<F>, F::M) {
-    let c = F::splat;
-    let missing = c(LEAST_COSINE) - ns.dot(wo);
-    let low = c(0.0).lt(missing);
-    if !low.any() {
-        return (ns, low);
-    }
-    (V3::select(low, wo.mad(missing, ns).normalise(), ns), low)
 }
 
 /// The squared cosine at which a step of the tables begins.

@@ -19,6 +19,7 @@
 mod blinn_phong;
 mod conductor;
 mod dielectric;
+mod seen;
 mod specular_reflection;
 mod varying;
 
@@ -298,15 +299,16 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         if self.blinn_phong.any() {
             let p = self.lobe().probability();
             let from_lobe = self.blinn_phong & lobe.lt(p);
+            let mut counted = self.blinn_phong;
             if from_lobe.any() {
-                wi = V3::select(from_lobe, self.lobe().sample(ns, wo, u, v), wi);
+                let (reflected, before) = self.lobe().sample(ns, wo, u, v);
+                wi = V3::select(from_lobe, reflected, wi);
+                counted = counted & (!from_lobe | before);
             }
             let cos_i = ns.dot(wi);
             let lobes = self.lobes(ns, wo, wi, cos_i.max(c(0.0)));
             let value = lobes.lambert + lobes.glossy;
             let density = p.fma(lobes.glossy_pdf, (c(1.0) - p) * lobes.lambert_pdf);
-            // Seen from behind the shading normal, a half vector may lie behind wo: no density counts what it gives.
-            let counted = !from_lobe | c(0.0).lt(ns.dot(wo.add(wi)));
             let usable = counted & c(0.0).lt(cos_i) & c(0.0).lt(density);
             let scale = F::select(usable, value * cos_i / F::select(usable, density, c(1.0)), c(0.0));
             weight = V3::select(self.blinn_phong, self.color.scale(scale), weight);
@@ -349,10 +351,10 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
     pub fn sample_narrow(&self, ns: V3<F>, wo: V3<F>, u: F, v: F) -> (V3<F>, V3<F>) {
         let c = F::splat;
         let (zero, one) = (c(0.0), c(1.0));
-        let wi = self.lobe().sample(ns, wo, u, v);
+        let (wi, counted) = self.lobe().sample(ns, wo, u, v);
         let cos_i = ns.dot(wi);
         let lobes = self.lobes(ns, wo, wi, cos_i.max(zero));
-        let usable = zero.lt(cos_i) & zero.lt(lobes.glossy_pdf);
+        let usable = counted & zero.lt(cos_i) & zero.lt(lobes.glossy_pdf);
         let scale = F::select(usable, lobes.glossy * cos_i / F::select(usable, lobes.glossy_pdf, one), zero);
         let weight = self.color.scale(scale);
         let Some(table) = self.conductors else { return (wi, weight) };

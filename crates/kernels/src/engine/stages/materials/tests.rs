@@ -2,6 +2,7 @@
 //! reflects in all; the dielectric against Snell and Fresnel; both on smooth surfaces against the side that they must
 //! leave to.
 
+use super::seen::LEAST_COSINE;
 use super::*;
 use crate::lanes::ArrayF;
 use crate::scene::{Albedo, Material, materials};
@@ -56,6 +57,9 @@ impl Rough {
         let Some((alpha, s)) = self.glossy else { return 1.0 / PI };
         // Rounded vectors are not quite unit, which wo.h would feel at grazing angles.
         let [n, wo, wi] = [n, wo, wi].map(DVec3::normalize);
+        // The lobe is that of the normal as it is seen.
+        let by_callers = n.dot(wi);
+        let n = (n + (f64::from(LEAST_COSINE) - n.dot(wo)).max(0.0) * wo).normalize();
         let h = (wo + wi).normalize();
         // cos^alpha from sin^2: exact also where the lobe is narrow.
         let sin2 = n.cross(h).length_squared().min(1.0);
@@ -65,7 +69,7 @@ impl Rough {
         } else {
             (alpha + 2.0) / TAU * lobe
         };
-        (1.0 - s) / PI + s * glossy
+        (1.0 - s) / PI + s * glossy * n.dot(wi).max(0.0) / by_callers
     }
 }
 
@@ -310,7 +314,8 @@ fn furnace() {
 }
 
 /// Interpolated normals may be seen from behind. What is reflected of light from everywhere is the integral of the
-/// formula there, too: half vectors behind the viewer's direction bring nothing that no density counts.
+/// formula there, too, and it is not nothing: half vectors behind the viewer's direction bring nothing that no density
+/// counts.
 #[test]
 fn normals_seen_from_behind() {
     const STEPS: usize = 400;
