@@ -68,8 +68,8 @@ impl Alone {
     /// Normal out of it, and where the next ray starts.
     fn on(&self, p: DVec3) -> (u32, DVec3, DVec3) {
         let shapes = &self.0.tables.shapes;
-        let (operand, n) = shapes.rows[0].on_solid(&shapes.parts, p).expect("a surface");
-        (operand, n, shapes.operands[operand as usize].row.surface(p).q)
+        let on = shapes.rows[0].on_solid(&shapes.parts, p).expect("a surface");
+        (on.operand, on.outward, shapes.operands[on.operand as usize].row.surface(p).q)
     }
 
     /// To render space.

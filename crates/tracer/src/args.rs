@@ -199,7 +199,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
     /// Frame of the scene's `animation`, from 0
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = frame)]
     pub frame: Option<u32>,
     /// Whether the frame is one of those that `--frames` asks for.
     #[arg(skip)]
@@ -233,6 +233,17 @@ impl SceneArgs {
     pub fn sets(&self) -> Vec<String> {
         self.overrides().into_iter().map(|set| set.argument).collect()
     }
+}
+
+/// One frame.
+fn frame(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| match text {
+        "all" => "one frame has a number; all are rendered by `tracer render --frames all`".to_owned(),
+        _ if text.contains(['-', '.']) && !text.starts_with('-') => {
+            format!("one frame has a number; several are rendered by `tracer render --frames {text}`")
+        }
+        _ => "expected the number of a frame, counted from 0".to_owned(),
+    })
 }
 
 /// What is set in a scene. Camera and frame count more than `--set`.

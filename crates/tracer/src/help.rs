@@ -411,6 +411,14 @@ fn one_more(words: &[String], more: &str) -> Option<String> {
     if sets && more.contains('=') {
         return Some(format!("--set stands before each of them: --set {word}"));
     }
+    let before = |k: usize| words.iter().position(|word| word == more).and_then(|at| words.get(at.checked_sub(k)?));
+    if let (Some(option), Some(field)) = (before(2), before(1)) {
+        match option.as_str() {
+            "--set" => return Some(format!("without spaces: --set {}", quoted(&format!("{field}={more}")))),
+            "--layers" => return Some(format!("without spaces: --layers {}", quoted(&format!("{field},{more}")))),
+            _ => {}
+        }
+    }
     let command: Vec<&str> = words.iter().map(String::as_str).take(2).collect();
     Some(match command.as_slice() {
         ["convert", ..] => format!("the file to write: -o {word}"),

@@ -37,7 +37,7 @@ impl LightPaths {
             return None;
         }
         let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
-        let count = (pixels * PER_FIVE_PIXELS / 5).clamp(1, MOST) as u32;
+        let count = plan.worth((pixels * PER_FIVE_PIXELS / 5).clamp(1, MOST) as u32);
         let strays = |share: &Share| plan.pairs.strays[share.pair as usize];
         let shares: Vec<Share> = plan.shares(count).filter(|share| !strays(share)).collect();
         let casters = plan.casters.list.len();

@@ -91,6 +91,8 @@ pub struct Part {
 const FLIPPED: u32 = 1;
 /// One more surface of the operand before it.
 const JOINS: u32 = 2;
+/// A plane that is not where the operand has it.
+const MOVED: u32 = 4;
 
 impl Part {
     const PLANE: u32 = 0;
@@ -124,6 +126,17 @@ impl Part {
             operand,
             unused: 0,
         }
+    }
+
+    /// The same plane, which is not where the operand has it.
+    pub fn moved(self) -> Self {
+        Part { flags: self.flags | MOVED, ..self }
+    }
+
+    /// The point of a plane that is nearest to this one.
+    fn nearest_of_plane(&self, point: DVec3) -> DVec3 {
+        let up = DVec3::from(self.object[2]);
+        point - up * (up.dot(point - DVec3::from(self.anchor)) / up.length_squared())
     }
 
     /// An operation on the two solids before it.
@@ -534,16 +547,27 @@ fn hit_of<const P: usize, const O: usize>(
     lists.first_end()
 }
 
-/// The operand whose surface is the solid's near a point, among those of the scene, and the unit normal there, out of
-/// the solid.
-pub(super) fn surface(parts: &[Part], point: DVec3) -> Option<(u32, DVec3)> {
+/// The surface of a solid near a point.
+pub struct OnSolid {
+    /// The operand that it is of, among those of the scene.
+    pub operand: u32,
+    /// The unit normal, out of the solid.
+    pub outward: DVec3,
+    /// The nearest point of it, where it is not where the operand has it.
+    pub moved: Option<DVec3>,
+}
+
+/// The surface of the solid near a point.
+pub(super) fn surface(parts: &[Part], point: DVec3) -> Option<OnSolid> {
     match parts.len() <= FEW_PARTS {
         true => surface_of::<FEW_PARTS>(parts, point),
         false => surface_of::<MOST_PARTS>(parts, point),
     }
 }
 
-fn surface_of<const P: usize>(parts: &[Part], point: DVec3) -> Option<(u32, DVec3)> {
+fn surface_of<const P: usize>(parts: &[Part], point: DVec3) -> Option<OnSolid> {
     let border = Near::<P>::of(parts, point).border(parts)?;
-    Some((parts.get(border.owner)?.operand, border.outward))
+    let part = parts.get(border.owner)?;
+    let moved = (part.flags & MOVED != 0).then(|| part.nearest_of_plane(point));
+    Some(OnSolid { operand: part.operand, outward: border.outward, moved })
 }

@@ -302,10 +302,9 @@ impl Row {
         parts.get(first..first + count).unwrap_or(&[])
     }
 
-    /// Where it is a solid: the operand whose surface is its own near a point of render space, among those of the
-    /// scene, and the unit normal there, outwards.
+    /// Where it is a solid: its surface near a point of render space.
     #[inline(never)]
-    pub fn on_solid(&self, parts: &[csg::Part], point: DVec3) -> Option<(u32, DVec3)> {
+    pub fn on_solid(&self, parts: &[csg::Part], point: DVec3) -> Option<csg::OnSolid> {
         if self.kind == UnitShape::SOLID { csg::surface(self.parts(parts), point) } else { None }
     }
 

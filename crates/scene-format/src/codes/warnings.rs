@@ -135,16 +135,19 @@ codes! {
     /// whole numbers, different, the largest of them 255. A `fov` from 0.2 to 2 that is no half or whole number, and
     /// `degrees` that are pi, a half, a third, a quarter or a sixth of it or a multiple of these, are radians. An
     /// `aperture` that is an f-number, as 2.8, and more than a fifth of the way to what is sharp, is a lens as wide as
-    /// that. An `exposure` above 10 is in stops, which double what is seen each, and makes a background more than 500
-    /// times as bright as white.
+    /// that; so is one that is wider than the way. An `exposure` above 10 is in stops, which double what is seen each,
+    /// and makes a background more than 500 times as bright as white. A `focal_length` below 1 is in metres. An `up`
+    /// within ten degrees of the view turns the picture by chance: y is up here. `random(-1, 1)` is no range: its
+    /// numbers are seeds, which give one number from 0 to 1.
     ///
     /// ```ron
     /// Scene(background: (135, 206, 235), objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     OTHER_SCALE "W0317" "a number on another scale";
     /// The rendered picture is white: three quarters of its pixels and more are twice as bright as white in all
-    /// channels, or three quarters of those that are not of the background alone. Take a darker background or lights,
-    /// or a lower `exposure`; the message says which.
+    /// channels, or three quarters of those that are not of the background alone; or in a quarter of these a channel is
+    /// brighter than 1.25, so that their colours are others than they should be. Take a darker background or lights, or
+    /// a lower `exposure`; the message says which.
     ALL_WHITE "W0318" "the picture is white";
     /// A `Rectangle` or `Box` lies in one plane with others that are seen in its place, all of it: a rug at the
     /// height of the floor. Of surfaces in one plane what shines is seen, then what lets no light through, then what
@@ -165,10 +168,10 @@ codes! {
     /// )
     /// ```
     DARK_LAMP "W0320" "a lamp that gives no light";
-    /// Two bodies of glass share a round wall, or a wall of a solid: water that is exactly as wide as the glass is
-    /// within. Rays meet both walls in one place, and rounding decides in which order: what is seen there is too dark
-    /// or too bright. Let the one reach a little into the other, a hundredth of its size, or leave a gap. (Flat sides
-    /// of bodies by themselves may touch.)
+    /// Two bodies share a round wall: water that is exactly as wide as the glass is within, a shining band exactly as
+    /// wide as the pillar that it is about. Rays meet both walls in one place, and rounding decides in which order:
+    /// what is seen there is too dark or too bright, or a lamp lights that nobody sees. Let the one reach a little into
+    /// the other, a hundredth of its size, or leave a gap. (Flat sides may touch.)
     ///
     /// ```text
     /// objects: [
@@ -182,7 +185,7 @@ codes! {
     ///     Cylinder(from: (0, 0.1, 0), to: (0, 0.7, 0), radius: 0.4, material: Transparent(ior: 1.33)),
     /// ]
     /// ```
-    SHARED_WALL "W0321" "bodies of glass that share a wall";
+    SHARED_WALL "W0321" "bodies that share a wall";
     /// The rendered picture is black where more is to be seen in mirrors or through glass: one in a hundred samples and
     /// more were ended by `max_bounces` before they had met anything else. Each mirror and each side of glass is a
     /// bounce: a drink in a glass has eight sides. Set `max_bounces` higher; the message says how high. (Rays that are
@@ -244,7 +247,8 @@ codes! {
     /// ```
     UNUSED_NAME "W0402" "a var or a texture is not used";
     /// An expression asks for `frame` or `time`, and the scene has no `animation`, so that both are 0. Or the camera
-    /// has a `shutter`, and no expression asks for `time`, so that nothing is blurred by motion.
+    /// has a `shutter`, and no expression asks for `time`, so that nothing is blurred by motion. Or there is an
+    /// `animation` of several frames, and no expression asks for either, so that all are one picture.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Sphere(center: ("=time", 0, 0), radius: 1)])

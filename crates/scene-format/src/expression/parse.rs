@@ -103,6 +103,7 @@ fn function_of_others(name: &str) -> Option<&'static str> {
         "fract" | "frac" => "the part behind the point is x - floor(x)",
         "int" | "trunc" => "whole numbers are made by `floor(x)` and `round(x)`",
         "rand" | "rnd" | "noise" => "that is `random(n)`, the same for the same n",
+        "kelvin" | "temperature" | "color_temperature" | "black_body" => "that is `blackbody(2700)`, in kelvins",
         "ln" => "that is `log(x)`",
         "vec3" | "vec" | "vector" | "vector3" | "vec3f" | "point" | "rgb" | "color" | "colour" => {
             "a vector or colour needs no name: (1, 2, 3)"
@@ -181,7 +182,9 @@ impl Parser<'_, '_> {
             return Ok(());
         }
         let at = self.rest_word();
-        Err(self.syntax(at, &format!("`{sign}` is missing"), format!("`{sign}`")))
+        let hint = operator_of_others(&self.text[at.clone()]).filter(|_| self.text[at.clone()] != *",");
+        let fault = self.syntax(at, &format!("`{sign}` is missing"), format!("`{sign}`"));
+        Err(fault.map(|fault| Fault { hint: hint.unwrap_or_default().to_owned(), ..fault }))
     }
 
     /// Goes one level deeper.
@@ -532,7 +535,13 @@ impl Parser<'_, '_> {
                 let why = if name == "keyframes" { why_no_keyframes(&arguments) } else { None };
                 let message =
                     format!("`{name}` cannot be called so{}", why.map_or(String::new(), |why| format!(": {why}")));
-                self.unless_idle(self.fault(codes::EXPRESSION_TYPE, at, &message, (*call).to_owned()))
+                let hint = match (name, &arguments[..]) {
+                    ("if", [Value::Number(_), _, _]) => "the condition is a number: compare it, as in `x != 0`",
+                    ("random", []) => "a number that is another for each i: random(i)",
+                    _ => "",
+                };
+                let fault = self.fault(codes::EXPRESSION_TYPE, at, &message, (*call).to_owned());
+                self.unless_idle(fault.map(|fault| Fault { hint: hint.to_owned(), ..fault }))
             }
         }
     }

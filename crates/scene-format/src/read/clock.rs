@@ -21,6 +21,8 @@ pub(super) struct Clock {
     asked: Option<(Span, &'static str)>,
     /// Some expression asks for `time`.
     goes_by: bool,
+    /// Some expression asks for `time` or `frame`, in an included file, too.
+    counts: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -34,7 +36,7 @@ enum State {
 
 impl Default for Clock {
     fn default() -> Self {
-        Clock { slot: NOWHERE, state: State::NotYet, share: 0.0, asked: None, goes_by: false }
+        Clock { slot: NOWHERE, state: State::NotYet, share: 0.0, asked: None, goes_by: false, counts: false }
     }
 }
 
@@ -97,6 +99,7 @@ impl Reader<'_> {
     pub(super) fn moment(&mut self, name: &str, item: Item<'_, '_>) -> Option<Named> {
         let name = if name == "frame" { "frame" } else { (name == "time").then_some("time")? };
         self.clock.goes_by |= name == "time";
+        self.clock.counts = true;
         if self.clock.asked.is_none() && !self.is_included(item.span()) {
             self.clock.asked = Some((item.span(), name));
         }
@@ -113,7 +116,11 @@ impl Reader<'_> {
         let animation = match &self.clock.state {
             State::NotYet => Animation::default(),
             State::Done(animation) => animation.clone(),
-            State::Failed => return Some(Named::Failed),
+            State::Failed => {
+                // What the expression names beside it is used where there is a frame.
+                self.chosen = true;
+                return Some(Named::Failed);
+            }
             State::Open => {
                 self.clock.state = State::Failed;
                 let message = format!("`{name}` is asked for by the animation, which says what it is");
@@ -144,6 +151,17 @@ impl Reader<'_> {
                 Some(_) => "`frame` stays what it is within a frame; `time` goes on",
                 None => "write what moves as an expression of `time`, or leave `shutter` out",
             }));
+            self.path.truncate(self.path.len() - 2);
+        }
+        if let State::Done(animation) = &self.clock.state
+            && animation.frames.value > 1
+            && !self.clock.counts
+        {
+            let (frames, span) = (animation.frames.value, animation.frames.span);
+            let message = format!("all {frames} frames are one picture: no expression asks for `time` or `frame`");
+            self.path.extend([Step::Field("animation"), Step::Field("frames")]);
+            let fault = Diagnostic::warning(codes::NOTHING_MOVES, span, message);
+            self.report(fault.hint("write what moves as an expression of them, as in \"=360*time\""));
             self.path.truncate(self.path.len() - 2);
         }
         let Some((span, name)) = self.clock.asked.filter(|_| self.clock.slot == NOWHERE) else { return };

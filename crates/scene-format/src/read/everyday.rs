@@ -43,6 +43,16 @@ const WORDS: &[(&[&str], &str)] = &[
         "an object is turned about its own middle, a Group about the origin; about another point: Rotate(axis: (0, 1, \
          0), degrees: 30, about: (0, 0, 0))",
     ),
+    (
+        &["z up", "z-up", "zup", "up axis", "blender", "sideways", "lies on its side"],
+        "y is up here; a mesh of a program that has z up is turned by `transform: [Rotate(axis: (1, 0, 0), degrees: \
+         -90)]`, and its points (x, y, z) are (x, z, -y)",
+    ),
+    (
+        &["csv", "spreadsheet", "data file"],
+        "places, a line each, stand in a placements file, `placements: \"copies.txt\"`; other numbers a program writes \
+         into a scene as JSON",
+    ),
     (&["shadow", "shadows"], "what is lit throws shadows: a small light throws sharp ones, a large one soft ones"),
     (&["reflection", "reflective", "shiny"], "what reflects has the material Mirror, Conductor or BlinnPhong"),
     (&["color", "colour", "colors", "colours"], "colours are red, green and blue, (0.8, 0.2, 0.1), or \"#d03a2b\""),
@@ -97,7 +107,7 @@ const WORDS: &[(&[&str], &str)] = &[
          `placements: Grid(count: (2, 1, 2), spacing: (1, 1, 0.6))`",
     ),
     (
-        &["brightness", "bright", "dark", "contrast", "overexposed", "underexposed"],
+        &["brightness", "bright", "dark", "black", "white", "contrast", "overexposed", "underexposed"],
         "how bright a picture is shown is `effects: Effects(exposure: 1)`, twice the light a stop; its contrast is \
          that of the `tone_map`",
     ),

@@ -92,6 +92,16 @@ pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_
     };
     let (group, ours) = group.map(|group| (group.name, None)).or_else(|| called().map(|(g, ours)| (g, Some(ours))))?;
     let place = if toml { format!("[{group}]") } else { format!("`{group}`") };
+    let sides = ["width", "height"];
+    let written = sides.map(|side| item.fields().find(|(key, _)| key.text() == side).map(|(_, value)| value.lexeme()));
+    if let ([Some(width), Some(height)], true) = (written, group == "image" && sides.contains(&name)) {
+        return Some(match item.syntax() {
+            Syntax::Ron => format!("write it beside: image: Image(width: {width}, height: {height})"),
+            syntax => {
+                syntax.of_toml(format!("write it beside: image = {{ width = {width}, height = {height} }}")).into()
+            }
+        });
+    }
     Some(match ours {
         None => format!("`{name}` is a field of {place}"),
         Some(ours) => format!("that is `{ours}` here, a field of {place}"),

@@ -23,6 +23,7 @@ mod pattern_fields;
 mod pick;
 mod radians;
 mod repeat;
+mod seeds;
 mod shape_fields;
 mod synonyms;
 mod textures;
@@ -501,7 +502,11 @@ impl<'r> Reader<'r> {
             self.report(fault);
             return None;
         }
-        if at.name == "transform" && item.kind() == Kind::Map && item.name().is_none() && !header {
+        let of_fields = match item.name() {
+            None => item.kind() == Kind::Map,
+            Some(name) => item.kind() == Kind::Struct && name.eq_ignore_ascii_case("transform"),
+        };
+        if at.name == "transform" && of_fields && !header {
             return self.transforms_in_braces(item, at);
         }
         let transform = || transforms_elsewhere::lone_transform(item).filter(|_| at.name == "transform");

@@ -71,6 +71,16 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
         "count" | "repeat" | "copies" if has("placements") => {
             "copies are its `placements`, Grid(..), Ring(..) or Scatter(..), or made by `Repeat(count: 8, items: [..])`"
         }
+        "up" | "up_axis" | "upaxis" | "y_up" | "z_up" | "axis_up" | "orientation" if def.name == "Mesh" => {
+            "y is up here; what lies on its side since its program has z up is turned: `transform: [Rotate(axis: (1, \
+             0, 0), degrees: -90)]`"
+        }
+        "look_at" | "lookat" | "track_to" | "facing" if has("material") && has("transform") => {
+            "it is turned by `transform: [Align(from: (0, 0, 1), to: (1, 0, 0))]`, one direction to another"
+        }
+        "area" | "region" | "bounds" | "domain" if has("min") && has("max") => {
+            "the box is said by two corners opposite, `min: (-5, 0, -5), max: (5, 0, 5)`"
+        }
         "parent" if has("material") => "what is moved together stands in a `Group(objects: [..], transform: [..])`",
         "engine" | "renderer" | "integrator_type" if def.name == "Scene" => {
             "how light is followed is `render: Render(integrator: Full)`, which it is without the word, or Path"

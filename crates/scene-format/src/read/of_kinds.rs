@@ -249,6 +249,21 @@ const AMONG_OBJECTS: Hints = &[
          OFF, PLY, STL, glTF or GLB file in a `Mesh`",
     ),
     (
+        &["helix", "spring", "spiral", "coil"],
+        "a coil is a Tube through points that a Repeat makes: Tube(points: [Repeat(count: 60, items: [(\"=cos(30*i)\", \
+         \"=0.05*i\", \"=sin(30*i)\")])], radius: 0.05)",
+    ),
+    (
+        &["hemisphere", "halfsphere", "dome"],
+        "half a ball is what a plane leaves of it: Intersection(objects: [Sphere(center: (0, 0, 0), radius: 1), \
+         Plane(normal: (0, -1, 0))])",
+    ),
+    (
+        &["pointcloud", "points", "particles"],
+        "many alike are one object with `placements`: a list, Grid(..), Ring(..), Scatter(..) or a file of positions",
+    ),
+    (&["compound", "compositeshape", "assembly", "collection"], "what belongs together is a `Group(objects: [..])`"),
+    (
         &["emitter", "emission", "lightsource", "glow", "lamplight"],
         "a lamp is an object that shines: `Rectangle(size: 1, material: Emissive(radiance: 5))`",
     ),

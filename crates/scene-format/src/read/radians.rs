@@ -21,7 +21,7 @@ pub(super) fn in_radians(body: &str) -> Option<(Range<usize>, String)> {
 }
 
 /// Up to the bracket that closes it.
-fn argument(text: &str) -> &str {
+pub(super) fn argument(text: &str) -> &str {
     let mut depth = 0usize;
     let end = text.find(|c: char| {
         match c {

@@ -103,7 +103,7 @@ mod tests {
             format!("Sphere(center: (0, 0, 0), radius: {radius}, material: {material}),")
         };
         let picked = |from: &str| format!("Pick(from: [{from}], index: \"=frame\")");
-        assert_eq!(warned(&ball("1", "\"a\"")), ["W0402", "W0401"]);
+        assert_eq!(warned(&ball("1", "\"a\"")), ["W0403", "W0402", "W0401"]);
         assert!(warned(&ball(&picked("1, \"=2*q\""), &picked("\"a\", \"b\""))).is_empty());
         // A repetition of none at frame 0.
         let none = format!("Repeat(count: \"=frame\", items: [{}])", ball("\"=q\"", "\"b\""));

@@ -1,6 +1,7 @@
 //! Values by name, and the expressions that use them.
 
 use super::radians::in_radians;
+use super::seeds::as_range;
 use super::{Reader, Step, hinted, shortened};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Span};
@@ -54,6 +55,8 @@ pub(super) struct Table {
     open: usize,
     /// That one takes radians for degrees was told.
     told_of_radians: bool,
+    /// Seeds that look like a range have been told.
+    told_of_seeds: bool,
     /// That they were too many was told.
     waits_too_long: bool,
     /// Some could not be read: names may be missing.
@@ -349,6 +352,7 @@ impl Reader<'_> {
         let fault = match result {
             Ok(value) => {
                 self.warn_of_radians(item, &text);
+                self.warn_of_seeds(item, &text);
                 return Some(Some(value));
             }
             Err(None) => return Some(None),
@@ -372,6 +376,19 @@ impl Reader<'_> {
         let warning = Diagnostic::warning(codes::OTHER_SCALE, within(item, text, &at), message);
         let hint = format!("write `{}`: a half turn is 180", hinted(&degrees));
         self.report(warning.expected("an angle in degrees").hint(hint));
+    }
+
+    /// Warns of seeds that look like a range, once in a scene.
+    fn warn_of_seeds(&mut self, item: Item<'_, '_>, text: &str) {
+        if self.vars.told_of_seeds {
+            return;
+        }
+        let Some((at, mended)) = as_range(&text[1..]) else { return };
+        self.vars.told_of_seeds = true;
+        let message = format!("`{}` is always the same number from 0 to 1", shortened(&text[1..][at.clone()]));
+        let warning = Diagnostic::warning(codes::OTHER_SCALE, within(item, text, &at), message);
+        let hint = format!("numbers of that range: `{mended}`, another for each `i`");
+        self.report(warning.expected("seeds, of which one at least differs from copy to copy").hint(hint));
     }
 
     fn circle(&mut self, k: usize, item: Item<'_, '_>) {

@@ -148,7 +148,12 @@ impl Reader<'_> {
         let right_word = ["two", "three", "four"].get(right.wrapping_sub(2)).copied().unwrap_or("more");
         let message = format!("{} has {right_word} numbers, not {numbers}", plain(at.noun));
         let mut fault = Diagnostic::error(codes::WRONG_COUNT, item.head(), message).expected(expected_for(at, item));
-        if let Some(mended) = with_decimal_points(item, right) {
+        let inner = item.children().next().filter(|inner| count == 1 && inner.name().is_none());
+        let inner = inner.filter(|inner| elsewhere::numbers(*inner).is_some_and(|numbers| numbers.len() == right));
+        if let Some(inner) = inner {
+            fault = fault.hint(format!("one pair of brackets is too many: write {}", inner.lexeme()));
+            fault.edit = Some(Edit { span: item.span(), replacement: inner.lexeme().to_owned() });
+        } else if let Some(mended) = with_decimal_points(item, right) {
             fault = fault.hint(format!("numbers have a decimal point: {mended}"));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
         } else if let Some(mended) = colors_elsewhere::without_alpha(item, at, right) {

@@ -171,7 +171,7 @@ impl Parser<'_> {
         let first = self.text.len() - first.len();
         let message = "named and unnamed values stand in one pair of brackets";
         let mut fault = Diagnostic::error(codes::MIXED_FIELDS, found, message)
-            .hint("write the name of each value, `name: value`, or of none")
+            .hint("write the name of each value, `name: value`")
             .label(self.span(first, first + 1), "this has no name");
         // The two kinds whose first value may stand alone.
         let name = self.text[..opened - 1].trim_end();

@@ -4,7 +4,7 @@ use super::decode;
 use crate::diagnostic::{Diagnostic, Edit};
 
 /// Those in which the language counts as well.
-const SAME: [&str; 11] = ["deg", "degree", "degrees", "w", "watt", "watts", "px", "s", "sec", "seconds", "m"];
+const SAME: [&str; 12] = ["f", "deg", "degree", "degrees", "w", "watt", "watts", "px", "s", "sec", "seconds", "m"];
 
 /// A short word after a number: both, where it is one.
 pub(super) fn parted(lexeme: &str) -> Option<(&str, &str)> {
@@ -23,11 +23,14 @@ pub(super) fn way(number: Option<&str>, unit: &str) -> String {
             Some(degrees) => format!("angles are in degrees: write {}", (degrees * 1e4).round() / 1e4),
             None => "angles are in degrees: 1 rad is 57.2958 of them".to_owned(),
         },
-        "w" | "watt" | "watts" => format!("{write}: `power` is in watts"),
+        "w" | "watt" | "watts" => {
+            format!("{write}: `power` is in watts of light; a light bulb that takes 60 W is `luminous_power: 800`")
+        }
         "m" | "cm" | "mm" | "km" | "in" | "inch" | "inches" | "ft" | "feet" | "meter" | "meters" | "metre"
         | "metres" => "lengths are in the scene's own unit, whichever you take: all of them in the same one".to_owned(),
         "px" | "pixel" | "pixels" => format!("{write}: width and height are in pixels"),
         "s" | "sec" | "secs" | "second" | "seconds" => format!("{write}: times are in seconds"),
+        "f" | "h" => format!("{write}: numbers carry no type"),
         _ => "numbers carry no unit; the reference says which unit each field has".to_owned(),
     }
 }

@@ -5,6 +5,7 @@
 
 mod left;
 mod shining;
+mod touching;
 
 use super::assets::Sources;
 use super::bodies::{Extent, Side, UnitBody};
@@ -20,6 +21,8 @@ use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 pub use shining::Lit;
 use shining::amount_of_whole;
 use std::sync::Arc;
+use touching::Moved;
+pub use touching::part;
 use tracer_kernels::scene::{Frame, NONE, Operand, Shape, Solids, Step};
 use tracer_kernels::shapes::csg::{Operation, Part, Surface};
 use tracer_kernels::shapes::{Solid, UnitShape};
@@ -62,7 +65,21 @@ pub struct SolidObject {
     parts: Vec<PartWritten>,
     /// From where it is written to the world, one per copy.
     maps: Maps,
+    /// Its walls that other things lie in one plane with.
+    moved: Moved,
 }
+
+/// A shape that a copy is made of.
+pub struct WallOf {
+    pub unit: UnitShape,
+    /// Where it is in the world.
+    pub map: DAffine3,
+    pub material: u32,
+    pub shines: bool,
+}
+
+/// Where the parts of a solid are, and which of them are moved.
+type Places<'a> = (&'a dyn Fn(usize, &DAffine3) -> DAffine3, &'a dyn Fn(usize) -> bool);
 
 /// Lower and upper corner.
 type Box3 = [DVec3; 2];
@@ -97,7 +114,7 @@ pub fn load(
         let mut operands = Vec::new();
         let node = reader.node(object, &format!("objects[{number}]"), None, &mut operands);
         let parts = parts(&operands);
-        all.push(SolidObject { number, node, operands, parts, maps: Maps::new() });
+        all.push(SolidObject { number, node, operands, parts, maps: Maps::new(), moved: Moved::default() });
     }
     all
 }
@@ -435,10 +452,15 @@ impl SolidObject {
         bounds(&self.node, &self.operands, map)
     }
 
-    /// What a copy is made of: each shape, where it is, and its material.
-    pub fn walls(&self, map: &DAffine3) -> impl Iterator<Item = (UnitShape, DAffine3, u32)> {
+    /// What a copy is made of.
+    pub fn walls(&self, map: &DAffine3) -> impl Iterator<Item = WallOf> {
         let map = *map;
-        self.operands.iter().map(move |operand| (operand.unit, map * operand.moved * operand.local, operand.material))
+        self.operands.iter().map(move |operand| WallOf {
+            unit: operand.unit,
+            map: map * operand.moved * operand.local,
+            material: operand.material,
+            shines: operand.emissive.is_some(),
+        })
     }
 
     /// Where a thing lies of a copy.
@@ -510,9 +532,16 @@ impl SolidObject {
                     coordinates,
                 });
             }
-            self.steps(&self.node, &|map_in: &DAffine3| scaled(*map * *map_in), first[2], solids);
+            let placed = |k: usize, map_in: &DAffine3| {
+                let mut whole = *map * *map_in;
+                whole.translation += self.moved.of(copy, k);
+                scaled(whole)
+            };
+            self.steps(&self.node, (&placed, &|k| self.moved.of(copy, k) != DVec3::ZERO), first[2], solids);
             let count = |list: usize, first: u32| [first, list as u32 - first];
-            let [low, high] = bounds(&self.node, &self.operands, map).map(|corner| frame.point(corner));
+            let [low, high] = bounds(&self.node, &self.operands, map);
+            let most = self.moved.most(copy);
+            let [low, high] = [low - most, high + most].map(|corner| frame.point(corner));
             let solid = Solid {
                 parts: count(solids.parts.len(), first[0]),
                 steps: count(solids.steps.len(), first[1]),
@@ -528,22 +557,24 @@ impl SolidObject {
         }
     }
 
-    /// Adds the parts and steps of a node. `placed`: from a map in the solid to render space.
-    fn steps(&self, node: &Node, placed: &dyn Fn(&DAffine3) -> DAffine3, first: u32, solids: &mut Solids) {
+    /// Adds the parts and steps of a node. `placed`: of a part, from its map in the solid to render space; `is_moved`:
+    /// whether it is another one there.
+    fn steps(&self, node: &Node, (placed, is_moved): Places<'_>, first: u32, solids: &mut Solids) {
         match node {
             Node::Operand(k) => {
                 let operand = first + *k as u32;
-                let own = self.parts.iter().filter(|part| part.operand == *k);
-                let parts = own.map(|part| {
+                let own = self.parts.iter().enumerate().filter(|(_, part)| part.operand == *k);
+                let parts = own.map(|(number, part)| {
                     let PartWritten { surface, map, flipped, joins, .. } = part;
-                    Part::of_surface(surface, &placed(map), *flipped, *joins, operand)
+                    let part = Part::of_surface(surface, &placed(number, map), *flipped, *joins, operand);
+                    if is_moved(number) { part.moved() } else { part }
                 });
                 solids.parts.extend(parts);
                 solids.steps.push(Step::Operand(operand));
             }
             Node::Made(operation, nodes) => {
                 for (k, node) in nodes.iter().enumerate() {
-                    self.steps(node, placed, first, solids);
+                    self.steps(node, (placed, is_moved), first, solids);
                     if k > 0 {
                         solids.parts.push(Part::of_operation(*operation));
                         solids.steps.push(Step::Operation(*operation));

@@ -5,6 +5,7 @@ use super::placed::Placed;
 use super::polygonal::{Geometry, UnitShape, polygonal};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::desc::{Material, MaterialRef};
+use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -58,9 +59,9 @@ impl Face {
     }
 }
 
-/// Warns of them, of all together once.
+/// Warns of them, of all together once, but for those that were told of something else.
 // Long: faces are gathered, sorted by place and held against each other, and each step needs what the one before has.
-pub fn warn(desc: &SceneDesc, placed: &Placed, diagnostics: &mut Diagnostics) {
+pub fn warn(desc: &SceneDesc, placed: &Placed, told: &BTreeSet<Span>, diagnostics: &mut Diagnostics) {
     let materials: BTreeMap<&str, &Material> =
         desc.materials.iter().map(|named| (&*named.name.value, &named.material)).collect();
     let mut faces: Vec<Face> = Vec::new();
@@ -126,7 +127,7 @@ pub fn warn(desc: &SceneDesc, placed: &Placed, diagnostics: &mut Diagnostics) {
             }
         }
     }
-    by.retain(|object, _| !seen.contains(object));
+    by.retain(|object, _| !seen.contains(object) && objects.get(*object).is_none_or(|(_, span)| !told.contains(span)));
     let Some((&hidden, &other)) = by.iter().next() else { return };
     let (Some((number, span)), Some((over, shown))) = (objects.get(hidden), objects.get(other)) else { return };
     let more = match by.len() - 1 {

@@ -6,7 +6,7 @@ use super::curved::{Curved, equation, is_similar};
 use glam::{DAffine3, DMat3, DVec3};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use tracer_kernels::scene::Material;
 use tracer_kernels::scene::materials::BxdfFlags;
 use tracer_kernels::shapes::UnitShape;
@@ -93,8 +93,13 @@ fn covered(curved: &[Curved], order: &[usize]) -> Vec<(u32, u32)> {
     covered
 }
 
-/// Leaves out the copies that are in the place of others, and warns of them.
-pub fn leave_out(desc: &SceneDesc, curved: &mut [Curved], materials: &[Material], diagnostics: &mut Diagnostics) {
+/// Leaves out the copies that are in the place of others, and warns of them but for those that were told.
+pub fn leave_out(
+    desc: &SceneDesc,
+    curved: &mut [Curved],
+    (materials, told): (&[Material], &BTreeSet<Span>),
+    diagnostics: &mut Diagnostics,
+) {
     let mut order: Vec<usize> =
         (0..curved.len()).filter(|&k| !matches!(curved[k].unit, UnitShape::Disk { .. })).collect();
     order.sort_by_key(|&k| rank(desc, &curved[k], materials));
@@ -117,7 +122,7 @@ pub fn leave_out(desc: &SceneDesc, curved: &mut [Curved], materials: &[Material]
             *left_out.entry(span).or_default() += lost;
         }
     }
-    for (span, count) in left_out {
+    for (span, count) in left_out.into_iter().filter(|(span, _)| !told.contains(span)) {
         let message = match count {
             1 => "this shape lies in one place with another: one of the two is seen".to_owned(),
             _ => format!("{count} copies of this shape lie in one place with others: one of them is seen"),

@@ -39,6 +39,7 @@ mod shut_in;
 mod stored;
 mod textures;
 mod trees;
+mod turned;
 mod unmeant;
 mod vertex_colors;
 
@@ -192,14 +193,16 @@ fn with_ways(mut diagnostics: Diagnostics, sources: &[Source]) -> Diagnostics {
 fn warn(desc: &SceneDesc, gathered: &mut Gathered<'_>) {
     let Gathered { objects, finished, background, diagnostics, .. } = gathered;
     let Objects { loaded, assigned, curved, solids, placed } = objects;
-    in_one_place::leave_out(desc, curved, &finished.materials, diagnostics);
+    let turned = turned::warn(desc, diagnostics);
+    in_one_place::leave_out(desc, curved, (&finished.materials, &turned), diagnostics);
     unmeant::warn(desc, loaded, placed, curved, diagnostics);
     shut_in::warn(desc, &shut_in::Made { loaded, placed, curved, solids }, diagnostics);
     dark_lamps::warn(desc, assigned, diagnostics);
-    hidden_flat::warn(desc, placed, diagnostics);
+    hidden_flat::warn(desc, placed, &turned, diagnostics);
     behind_planes::warn(desc, placed, (curved, solids), diagnostics);
     csg::warn(desc, solids, diagnostics);
-    shared_walls::warn(desc, placed, (curved, solids), &finished.materials, diagnostics);
+    csg::part(desc, loaded, placed, curved, solids);
+    shared_walls::warn(desc, (curved, solids), &finished.materials, diagnostics);
     curved::warn_of_open_glass(desc, diagnostics);
     other_scale::warn(desc, background.brightest(), diagnostics);
 }

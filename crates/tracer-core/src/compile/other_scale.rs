@@ -1,6 +1,7 @@
 //! Numbers that are surely meant on another scale: radians where degrees stand, light as a colour in bytes, an
 //! exposure in other units, an f-number where the lens's width stands.
 
+use glam::DVec3;
 use scene_format::desc::{
     Albedo, Amount, Color, Focus, Light, Material, MaterialRef, Projection, Transform, with_operands,
 };
@@ -22,6 +23,8 @@ const MOST_WHITE: f64 = 500.0;
 const F_NUMBERS: [f64; 15] = [1.2, 1.4, 1.8, 2.0, 2.2, 2.4, 2.8, 3.5, 4.0, 4.5, 5.6, 8.0, 11.0, 16.0, 22.0];
 /// A lens wider than this share of the way to what is sharp is looked at.
 const WIDE: f64 = 0.2;
+/// And one that is no number on a ring, above this.
+const WIDEST: f64 = 1.0;
 
 /// Warns of them, each kind once. `behind`: the brightest channels of the background.
 pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
@@ -67,6 +70,8 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
         );
     }
     diagnostics.extend(f_number(desc));
+    diagnostics.extend(in_metres(desc));
+    diagnostics.extend(up_along_view(desc));
     let exposure = &desc.effects.exposure;
     let brightest = behind.iter().fold(0.0, |most: f64, channel| most.max(*channel)) * libm::exp2(exposure.value);
     if exposure.value > MOST_STOPS && brightest > MOST_WHITE {
@@ -80,7 +85,40 @@ pub fn warn(desc: &SceneDesc, behind: [f64; 3], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// A lens whose width is an f-number.
+/// A focal length below this many millimetres is rather one in metres: no lens of a camera is so short.
+const SHORTEST: f64 = 1.0;
+/// The sine of the angle between `up` and the view below which the picture is turned by chance: ten degrees.
+const UPRIGHT: f64 = 0.17;
+
+/// A focal length in metres.
+fn in_metres(desc: &SceneDesc) -> Option<Diagnostic> {
+    let written = desc.camera.focal_length.as_ref().filter(|length| length.value < SHORTEST)?;
+    let message = format!("a `focal_length` of {} mm sees half of all there is; it looks like metres", written.value);
+    Some(
+        Diagnostic::warning(codes::OTHER_SCALE, written.span, message)
+            .expected("a length in millimetres: 50 is a usual one")
+            .hint(format!("write `focal_length: {}`", (1e6 * written.value).round() / 1e3)),
+    )
+}
+
+/// An `up` that is nearly the direction of the view, where another than (0, 1, 0) is written: z is up in other
+/// programs.
+fn up_along_view(desc: &SceneDesc) -> Option<Diagnostic> {
+    let camera = &desc.camera;
+    let [eye, look_at, up] = [&camera.position, &camera.look_at, &camera.up].map(|at| DVec3::from(at.value));
+    let across = (look_at - eye).normalize_or_zero().cross(up.normalize_or_zero()).length();
+    if across >= UPRIGHT || up.x == 0.0 && up.z == 0.0 || camera.matrix.is_some() {
+        return None;
+    }
+    let message = "`up` is nearly the direction of the view: the picture is turned by what little is left of it";
+    Some(
+        Diagnostic::warning(codes::OTHER_SCALE, camera.up.span, message)
+            .expected("the direction that is upwards in the picture, across the view")
+            .hint("y is up here: leave `up` out, or write `up: (0, 1, 0)`"),
+    )
+}
+
+/// A lens whose width is an f-number, or more than half of the way to what is sharp.
 fn f_number(desc: &SceneDesc) -> Option<Diagnostic> {
     let lens = desc.effects.depth_of_field.as_ref()?;
     let aperture = lens.aperture.value;
@@ -89,11 +127,13 @@ fn f_number(desc: &SceneDesc) -> Option<Diagnostic> {
         Focus::Distance(away) => away,
         Focus::On(point) => (0..3).map(|c| (point[c] - eye[c]) * (point[c] - eye[c])).sum::<f64>().sqrt(),
     };
-    if !F_NUMBERS.contains(&aperture) || aperture <= WIDE * away {
+    let is_f_number = F_NUMBERS.contains(&aperture);
+    if aperture <= if is_f_number { WIDE } else { WIDEST } * away {
         return None;
     }
     let digits = |x: f64| (x * 1e4).ceil() / 1e4;
-    let message = format!("a lens {aperture} wide, before what is {} away; it looks like an f-number", digits(away));
+    let looks = if is_f_number { "looks like an f-number" } else { "blurs all there is" };
+    let message = format!("a lens {aperture} wide, before what is {} away; it {looks}", digits(away));
     Some(
         Diagnostic::warning(codes::OTHER_SCALE, lens.aperture.span, message)
             .expected("the diameter of the lens, in the scene's unit: its focal length over the f-number")

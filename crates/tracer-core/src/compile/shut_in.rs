@@ -203,7 +203,8 @@ fn find<'a>(desc: &'a SceneDesc, made: &Made<'a>) -> Found<'a> {
     }
     for (index, light) in desc.lights.iter().enumerate() {
         let Light::SphereLight(sphere) = &light.value;
-        let extent = Extent::ball(DVec3::from(sphere.center.value), sphere.radius.value);
+        // One that is as large as a ball about it is within.
+        let extent = Extent::ball(DVec3::from(sphere.center.value), (1.0 - 1e-6) * sphere.radius.value);
         found.lamps.push(Lamp { extent, span: light.span, name: format!("lights[{index}]") });
     }
     found

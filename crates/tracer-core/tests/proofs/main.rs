@@ -52,5 +52,6 @@ mod solids;
 mod support;
 mod surfaces;
 mod textures;
+mod touching_solids;
 mod varying;
 mod vertex_color;

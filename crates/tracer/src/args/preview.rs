@@ -62,7 +62,7 @@ pub struct PreviewArgs {
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
     /// Frame of the scene's `animation`, from 0
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = super::frame)]
     pub frame: Option<u32>,
     /// Syntax of the scene [default: by its name]
     #[arg(long, value_enum, value_name = "SYNTAX", hide_possible_values = true)]

@@ -25,6 +25,7 @@ mod kubernetes;
 mod layers;
 mod light_groups;
 mod mattes;
+mod mistaken;
 mod motion;
 mod named;
 mod parts;

@@ -23,6 +23,20 @@ const COPLANAR_FIND: &str = "crates/kernels/src/bvh/coplanar/find.rs";
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
     Mutant {
+        name: "solids-end-at-what-they-touch",
+        file: "crates/tracer-core/src/compile/csg/touching.rs",
+        find: "const PART: f64 = 1.0 / 65_536.0;",
+        replace: "const PART: f64 = 0.0;",
+        caught_by: proofs(&["touching_solids::"]),
+    },
+    Mutant {
+        name: "upside-down-picture-of-a-lens-below-zero",
+        file: "crates/kernels/src/engine/stages/cameras/perspective.rs",
+        find: "measure = tilted(offset, normal, focus).abs();",
+        replace: "measure = tilted(offset, normal, focus);",
+        caught_by: kernel_units(&["engine::stages::cameras"]),
+    },
+    Mutant {
         name: "coplanar-whoever-is-found-wins",
         file: TREE,
         find: "coplanar.settle(rays, active, hits);",

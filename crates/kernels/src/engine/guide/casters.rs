@@ -14,6 +14,34 @@ pub struct Caster {
     pub radius: f64,
     /// The largest share of light that it passes on.
     pub reflectance: f64,
+    /// How many photons it is worth, of those of a mirror.
+    pub narrow: f64,
+}
+
+impl Caster {
+    fn new((center, radius): (DVec3, f64), passes: Passes) -> Self {
+        Caster { center, radius, reflectance: passes.reflectance, narrow: passes.narrow }
+    }
+}
+
+/// What a material passes on to photons.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Passes {
+    /// The largest share of light, about; 0: it is no caster.
+    reflectance: f64,
+    /// How many photons that is worth.
+    narrow: f64,
+}
+
+impl Passes {
+    /// Of several the most.
+    fn or(self, other: Passes) -> Passes {
+        Passes { reflectance: self.reflectance.max(other.reflectance), narrow: self.narrow.max(other.narrow) }
+    }
+
+    fn casts(self) -> bool {
+        self.reflectance > 0.0
+    }
 }
 
 /// The casters, and which objects belong to them.
@@ -40,36 +68,35 @@ impl Casters {
         let mut objects: Vec<Object> = Vec::new();
         for (id, sphere) in scene.spheres.iter().enumerate() {
             if sphere.light == NONE {
-                let reflectance = passes_on(scene, sphere.material);
-                if reflectance > 0.0 {
-                    let (center, radius) = (sphere.center, sphere.radius);
-                    objects.push(Object { caster: Caster { center, radius, reflectance }, id: id as u32 });
+                let passes = passes_on(scene, sphere.material);
+                if passes.casts() {
+                    let caster = Caster::new((sphere.center, sphere.radius), passes);
+                    objects.push(Object { caster, id: id as u32 });
                 }
             }
         }
         for (id, shape) in scene.shapes.iter().enumerate() {
-            let reflectance = match shape.unit {
+            let passes = match shape.unit {
                 UnitShape::Solid(Solid { operands: [first, count], .. }) => (first..first + count)
                     .filter_map(|k| scene.solids.operands.get(k as usize))
                     .map(|operand| passes_on(scene, operand.material))
-                    .fold(0.0, f64::max),
+                    .fold(Passes::default(), Passes::or),
                 _ => passes_on(scene, shape.material),
             };
-            if reflectance > 0.0 {
-                let (center, radius) = around_shape(shape);
-                let caster = Caster { center, radius, reflectance };
+            if passes.casts() {
+                let caster = Caster::new(around_shape(shape), passes);
                 objects.push(Object { caster, id: (spheres + id) as u32 });
             }
         }
         let loose = spheres + scene.shapes.len();
         let mut bounds = MeshBounds::new(scene);
         for (id, instance) in scene.instances.iter().enumerate() {
-            if let Some((center, radius, reflectance)) = bounds.of(instance.mesh, instance.material) {
-                let (center, radius) = match instance.placement {
+            if let Some((center, radius, passes)) = bounds.of(instance.mesh, instance.material) {
+                let around = match instance.placement {
                     None => (center, radius),
                     Some(rows) => placed(rows, center, radius),
                 };
-                let caster = Caster { center, radius, reflectance };
+                let caster = Caster::new(around, passes);
                 objects.push(Object { caster, id: (loose + id) as u32 });
             }
         }
@@ -102,9 +129,12 @@ pub(super) fn around_shape(shape: &Shape) -> (DVec3, f64) {
     ((low + high) * 0.5, 0.5 * low.distance(high))
 }
 
-/// The largest share of light that a material passes on to photons, about; 0: it is no caster.
-fn passes_on(scene: &Scene, material: u32) -> f64 {
-    scene.materials.get(material as usize).map_or(0.0, |material| material.traits().casts)
+/// What a material passes on to photons; none where it is no caster.
+fn passes_on(scene: &Scene, material: u32) -> Passes {
+    let traits = scene.materials.get(material as usize).map(|material| material.traits());
+    traits
+        .filter(|traits| traits.casts > 0.0)
+        .map_or_else(Passes::default, |traits| Passes { reflectance: traits.casts, narrow: traits.narrow })
 }
 
 /// The sphere around a placed sphere: the largest stretch of a matrix M is at most the root of the largest row sum of
@@ -124,7 +154,7 @@ struct MeshBounds<'a> {
     scene: &'a Scene,
     /// Per mesh: around all of it, and around the triangles whose own material casts.
     whole: Vec<Option<(DVec3, f64)>>,
-    own: Vec<Option<Option<(DVec3, f64, f64)>>>,
+    own: Vec<Option<Option<(DVec3, f64, Passes)>>>,
 }
 
 impl<'a> MeshBounds<'a> {
@@ -132,25 +162,29 @@ impl<'a> MeshBounds<'a> {
         MeshBounds { scene, whole: vec![None; scene.meshes.len()], own: vec![None; scene.meshes.len()] }
     }
 
-    /// Middle, radius and reflectance of what casts in a mesh with this material ([`NONE`]: the triangles' own).
-    fn of(&mut self, mesh: u32, material: u32) -> Option<(DVec3, f64, f64)> {
+    /// Middle and radius of what casts in a mesh with this material ([`NONE`]: the triangles' own), and what it passes
+    /// on.
+    fn of(&mut self, mesh: u32, material: u32) -> Option<(DVec3, f64, Passes)> {
         let scene = self.scene;
         let at = mesh as usize;
         let range = scene.meshes.get(at)?;
         let triangles = range.first_triangle..range.first_triangle + range.triangle_count;
         if material != NONE {
-            let reflectance = passes_on(scene, material);
-            if reflectance == 0.0 {
+            let passes = passes_on(scene, material);
+            if !passes.casts() {
                 return None;
             }
             let (center, radius) = *self.whole[at].get_or_insert_with(|| around(scene, triangles));
-            return Some((center, radius, reflectance));
+            return Some((center, radius, passes));
         }
         *self.own[at].get_or_insert_with(|| {
-            let casts = |t: &u32| scene.triangles.material.get(*t as usize).map_or(0.0, |&m| passes_on(scene, m));
-            let reflectance = triangles.clone().map(|t| casts(&t)).fold(0.0, f64::max);
-            let (center, radius) = around(scene, triangles.filter(|t| casts(t) > 0.0));
-            (reflectance > 0.0).then_some((center, radius, reflectance))
+            let of = |t: u32| {
+                let material = scene.triangles.material.get(t as usize);
+                material.map_or_else(Passes::default, |&material| passes_on(scene, material))
+            };
+            let passes = triangles.clone().map(of).fold(Passes::default(), Passes::or);
+            let (center, radius) = around(scene, triangles.filter(|&t| of(t).casts()));
+            passes.casts().then_some((center, radius, passes))
         })
     }
 }
@@ -183,13 +217,13 @@ fn cluster(objects: &mut [Object], most: usize, list: &mut Vec<Caster>, of_objec
         return;
     }
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let mut reflectance = 0.0f64;
+    let mut passes = Passes::default();
     for Object { caster, id } in objects.iter() {
         (low, high) = (low.min(caster.center - caster.radius), high.max(caster.center + caster.radius));
-        reflectance = reflectance.max(caster.reflectance);
+        passes = passes.or(Passes { reflectance: caster.reflectance, narrow: caster.narrow });
         of_object[*id as usize] = list.len() as u32;
     }
     let center = (low + high) * 0.5;
     let radius = objects.iter().map(|o| o.caster.center.distance(center) + o.caster.radius).fold(0.0, f64::max);
-    list.push(Caster { center, radius, reflectance });
+    list.push(Caster::new((center, radius), passes));
 }

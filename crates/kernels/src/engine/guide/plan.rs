@@ -97,6 +97,8 @@ pub struct Plan {
     pub curved: Arc<[CurvedRow]>,
     /// Flux of all lights, the sum of the channels.
     pub power: f32,
+    /// How many photons all casters are worth, of those of mirrors in their place.
+    worth: f64,
 }
 
 impl Plan {
@@ -107,7 +109,7 @@ impl Plan {
         }
         let casters = Casters::new(scene, MOST_PAIRS / scene.lights.len());
         let mut pairs = Vec::new();
-        let mut all = 0.0;
+        let (mut all, mut of_mirrors) = (0.0, 0.0);
         for (k, light) in scene.lights.iter().enumerate().filter(|(_, light)| light.is_drawn()) {
             let pi = std::f64::consts::PI;
             let radiance = light.radiance().iter().sum::<f64>() * scene.tables.lights.share(k);
@@ -126,6 +128,8 @@ impl Plan {
             for (c, caster) in casters.list.iter().enumerate() {
                 let mut pair = Pair::new(scene, light, caster);
                 pair.weight *= power;
+                of_mirrors += pair.weight;
+                pair.weight *= caster.narrow;
                 (pair.light, pair.caster) = (k, c);
                 pairs.push(pair);
             }
@@ -146,6 +150,7 @@ impl Plan {
             casters,
             curved: scene.tables.lights.curved.clone(),
             power: all as f32,
+            worth: sum / of_mirrors,
         })
     }
 
@@ -158,6 +163,11 @@ impl Plan {
         let of_sphere = F::U::gather(&self.casters.of_sphere, F::U::select(on_sphere, primitive, none));
         let of_instance = F::U::gather(&self.casters.of_instance, F::U::select(on_instance, instance, none));
         mask & F::U::select(on_instance, of_instance, of_sphere).eq(F::U::gather(&self.pairs.caster, pair))
+    }
+
+    /// How many photons are sent where of mirrors it would be so many.
+    pub fn worth(&self, photons: u32) -> u32 {
+        (f64::from(photons) * self.worth).ceil() as u32
     }
 
     /// Which of so many photons each pair has, without drawing lots.

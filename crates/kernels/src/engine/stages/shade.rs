@@ -126,17 +126,18 @@ struct Points<F: Lanes> {
 impl<'a, F: Lanes> Stage<'a, F> {
     #[inline(always)]
     fn new(scene: &'a Scene, pass: Pass<'a>, vertex: u32, items: &[Item]) -> Self {
-        let pairs = |purpose| PairPoints::<F>::new(pass.seed, purpose, items);
+        // No closure: it would not be inlined, and be without the level's instructions.
+        let seed = pass.seed;
         Stage {
             scene,
             pass,
             vertex,
             open: scene.is_open(),
             several: scene.tables.lights.several(),
-            choices: pairs(Purpose::Choice(vertex)),
-            light_points: pairs(Purpose::Light(vertex)),
-            directions: pairs(Purpose::Direction(vertex)),
-            roulettes: pairs(Purpose::Roulette(vertex)),
+            choices: PairPoints::<F>::new(seed, Purpose::Choice(vertex), items),
+            light_points: PairPoints::<F>::new(seed, Purpose::Light(vertex), items),
+            directions: PairPoints::<F>::new(seed, Purpose::Direction(vertex), items),
+            roulettes: PairPoints::<F>::new(seed, Purpose::Roulette(vertex), items),
         }
     }
 

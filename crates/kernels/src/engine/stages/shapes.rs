@@ -7,6 +7,7 @@ use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::scene::{Scene, ShapeTable};
 use crate::shapes::OnUnit;
+use crate::shapes::csg::OnSolid;
 use glam::DVec3;
 
 /// The most lanes that there are.
@@ -94,10 +95,11 @@ fn find(table: &ShapeTable, spheres: u32, at: &At, mut lanes: u32) -> Found {
         let mut light = table.light.get(index).copied().unwrap_or(0);
         let on = match row.on_solid(&table.parts, point) {
             None => row.surface(point),
-            Some((operand, n)) => {
+            Some(OnSolid { operand, outward, moved }) => {
                 let Some(of) = table.operands.get(operand as usize) else { continue };
                 (body, material, light) = (table.first_body + operand, of.material, of.light);
-                OnUnit { n, ..of.row.surface(point) }
+                let on = of.row.surface(point);
+                OnUnit { n: outward, q: moved.unwrap_or(on.q), ..on }
             }
         };
         for axis in 0..3 {

@@ -1,6 +1,6 @@
 //! Blinn-Phong.
 
-use super::{Albedo, BxdfFlags, LEAST_EXPONENT, Lobe, MaterialKind, Row, Traits};
+use super::{Albedo, BxdfFlags, LEAST_EXPONENT, Lobe, MaterialKind, Row, Traits, narrow};
 
 /// albedo ((1 - s)/pi + s (alpha + 2)/(2 pi) cos^alpha theta_h), or with the glossy lobe of Ashikhmin and Shirley.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,10 @@ impl MaterialKind for BlinnPhong {
         let specular = self.specular.largest();
         let lobe = if self.energy_conserving { specular } else { 4.0 * specular };
         // A texture may be narrow somewhere.
-        let narrow = self.exponent.constant().is_none_or(|[exponent, ..]| exponent as f32 >= LEAST_EXPONENT);
-        Traits { flags, color: self.albedo, casts: if narrow { self.albedo.largest() * lobe } else { 0.0 } }
+        let exponent = self.exponent.constant().map(|[exponent, ..]| exponent);
+        let is_narrow = exponent.is_none_or(|exponent| exponent as f32 >= LEAST_EXPONENT);
+        let casts = if is_narrow { self.albedo.largest() * lobe } else { 0.0 };
+        let narrow = exponent.map_or(1.0, |exponent| narrow((2.0 / (exponent + 2.0)).sqrt()));
+        Traits { flags, color: self.albedo, casts, narrow }
     }
 }

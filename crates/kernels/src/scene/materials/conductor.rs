@@ -1,7 +1,7 @@
 //! Metals: a specular lobe, or GGX with what is reflected several times among the bumps.
 
 use super::ggx;
-use super::{Albedo, BxdfFlags, LEAST_ALPHA, Lobe, MaterialKind, NARROWEST_ALPHA, Row, Traits};
+use super::{Albedo, BxdfFlags, LEAST_ALPHA, Lobe, MaterialKind, NARROWEST_ALPHA, Row, Traits, narrow};
 use crate::scene::table::Table;
 
 /// How much a metal reflects, by the angle.
@@ -85,9 +85,10 @@ impl MaterialKind for Conductor {
             Some(_) => BxdfFlags::GLOSSY,
         };
         // A texture may be narrow somewhere.
-        let narrow = self.alpha().is_none_or(|alpha| alpha <= f64::from(NARROWEST_ALPHA));
-        let casts = if narrow { color.largest() } else { 0.0 };
-        Traits { flags: BxdfFlags::REFLECTION.or(lobe), color, casts }
+        let is_narrow = self.alpha().is_none_or(|alpha| alpha <= f64::from(NARROWEST_ALPHA));
+        let casts = if is_narrow { color.largest() } else { 0.0 };
+        let narrow = self.alpha().map_or(1.0, narrow);
+        Traits { flags: BxdfFlags::REFLECTION.or(lobe), color, casts, narrow }
     }
 
     fn conductor(&self) -> Option<&Conductor> {

@@ -15,6 +15,6 @@ impl MaterialKind for Diffuse {
     }
 
     fn traits(&self) -> Traits {
-        Traits { flags: BxdfFlags::REFLECTION.or(BxdfFlags::DIFFUSE), color: self.albedo, casts: 0.0 }
+        Traits { flags: BxdfFlags::REFLECTION.or(BxdfFlags::DIFFUSE), color: self.albedo, casts: 0.0, narrow: 0.0 }
     }
 }

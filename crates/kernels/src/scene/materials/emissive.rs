@@ -20,6 +20,6 @@ impl MaterialKind for Emissive {
     }
 
     fn traits(&self) -> Traits {
-        Traits { flags: BxdfFlags::NONE, color: Albedo::Color([0.0; 3]), casts: 0.0 }
+        Traits { flags: BxdfFlags::NONE, color: Albedo::Color([0.0; 3]), casts: 0.0, narrow: 0.0 }
     }
 }

@@ -16,6 +16,6 @@ impl MaterialKind for Mirror {
 
     fn traits(&self) -> Traits {
         let color = self.reflectance;
-        Traits { flags: BxdfFlags::REFLECTION.or(BxdfFlags::SPECULAR), color, casts: color.largest() }
+        Traits { flags: BxdfFlags::REFLECTION.or(BxdfFlags::SPECULAR), color, casts: color.largest(), narrow: 1.0 }
     }
 }

@@ -28,6 +28,16 @@ pub const LEAST_EXPONENT: f32 = 50.0;
 /// GGX casts caustics up to this alpha: as narrow as a Blinn-Phong lobe of that exponent, alpha^2 = 2 / (exponent + 2).
 pub const NARROWEST_ALPHA: f32 = 0.196;
 
+/// Lobes that are wider than this have fewer photons than mirrors.
+const NARROW_ALPHA: f64 = 0.05;
+
+/// How many photons a lobe of this alpha is worth, of those of a mirror: what a lobe reflects is found by light samples
+/// so much the more seldom as its solid angle is small, which goes by alpha^2. So where lobes are so wide that they are
+/// no casters any more, they have hardly been ones.
+fn narrow(alpha: f64) -> f64 {
+    (NARROW_ALPHA / alpha).powi(2).min(1.0)
+}
+
 /// Below this alpha a rough lobe is a specular one.
 pub const LEAST_ALPHA: f64 = 1e-4;
 
@@ -106,6 +116,8 @@ pub struct Traits {
     pub color: Albedo,
     /// The largest share of light that photons carry on, about; 0: it casts no caustics.
     pub casts: f64,
+    /// How many photons that is worth, of those of a mirror: see [`narrow`].
+    pub narrow: f64,
 }
 
 /// The lobes that the engine has, by their numbers in the tables.

@@ -20,6 +20,6 @@ impl MaterialKind for Transparent {
     fn traits(&self) -> Traits {
         let flags = BxdfFlags::REFLECTION.or(BxdfFlags::TRANSMISSION).or(BxdfFlags::SPECULAR);
         // What it does not let through it reflects, and that is not coloured.
-        Traits { flags, color: self.transmittance, casts: 1.0 }
+        Traits { flags, color: self.transmittance, casts: 1.0, narrow: 1.0 }
     }
 }

@@ -6,7 +6,7 @@
 //! light paths start there.
 
 use super::{Start, Towards, round};
-use crate::shapes::csg::Part;
+use crate::shapes::csg::{OnSolid, Part};
 use crate::shapes::{Row, Solid};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -47,7 +47,7 @@ impl Operand {
         // As rays have it.
         let direction = to.try_normalize()?.as_vec3().as_dvec3();
         let distance = row.meet_among(parts, from, direction, leaves)?;
-        let (operand, normal) = row.on_solid(parts, from + distance * direction)?;
+        let OnSolid { operand, outward: normal, .. } = row.on_solid(parts, from + distance * direction)?;
         let shines = operand == self.number && (two_sided || normal.dot(direction) < 0.0);
         (shines && distance > 0.0).then(|| Towards { direction, distance, inverse_pdf: self.inverse_pdf(from) })
     }

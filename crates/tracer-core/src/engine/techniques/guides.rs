@@ -24,10 +24,10 @@ use tracer_kernels::scene::Scene;
 
 /// Photons of the largest guide.
 const MOST_PHOTONS: u32 = 1 << 18;
-/// Photons of the trial that tells how many of them are stored: of those that are sent at a bent mesh's sphere, a
-/// tenth.
+/// Photons of the trial that tells how many of them meet the caster that they are sent at: of those that are sent at a
+/// bent mesh's sphere, a tenth. What meets it and goes to the sky brings as little with more photons.
 const TRIAL: u32 = 4096;
-/// Where fewer are stored, so many times as many are sent, at most.
+/// Where fewer meet it, so many times as many are sent, at most.
 const MOST_MORE: u32 = 8;
 
 /// The guides of a rendering, one at a time.
@@ -36,7 +36,7 @@ struct Guides {
     seed: u32,
     /// Photons of the first guide.
     first: u32,
-    /// How many times as many photons are sent as where all are stored; known after a trial.
+    /// How many times as many photons are sent as where all meet a caster; known after a trial.
     more: Option<u32>,
     stage: u32,
     guide: Guide,
@@ -94,13 +94,13 @@ impl Technique for Guides {
         }
         let more = *self.more.get_or_insert_with(|| {
             let seed = hash3(self.seed, 0, 0x0007_21a1) as u32;
-            let stored = photons(engine, &self.plan, seed, TRIAL, pool).len() as u32;
-            (TRIAL / stored.max(1)).clamp(1, MOST_MORE)
+            let met = photons(engine, &self.plan, seed, TRIAL, pool).met;
+            (TRIAL / met.max(1)).clamp(1, MOST_MORE)
         });
-        let count = (self.first << stage.saturating_sub(1)).min(MOST_PHOTONS) * more;
+        let count = self.plan.worth((self.first << stage.saturating_sub(1)).min(MOST_PHOTONS) * more);
         // Choices of its own for each guide.
         let seed = hash3(self.seed, stage, 0x0007_21a1) as u32;
-        let photons = photons(engine, &self.plan, seed, count, pool);
+        let photons = photons(engine, &self.plan, seed, count, pool).stored;
         self.guide.cells = pool.once(|batch| {
             batch.watch.resume();
             let start = Instant::now();

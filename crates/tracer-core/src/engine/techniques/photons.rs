@@ -10,11 +10,25 @@ use tracer_kernels::engine::pass::PhotonPass;
 use tracer_kernels::engine::pool::Pool;
 use tracer_kernels::report::Stage;
 
-/// Sends so many photons; what was stored, in an order that depends on nothing else.
-pub fn photons(engine: Engine<'_>, plan: &Plan, seed: u32, count: u32, pool: &Pool) -> Vec<Photon> {
+/// What became of photons.
+#[derive(Default)]
+pub struct Sent {
+    /// What was stored, in an order that depends on nothing else.
+    pub stored: Vec<Photon>,
+    /// How many met the caster that they were sent at, and went on from there.
+    pub met: u32,
+}
+
+/// Sends so many photons.
+pub fn photons(engine: Engine<'_>, plan: &Plan, seed: u32, count: u32, pool: &Pool) -> Sent {
     let batches = batches(plan.shares(count));
     let trace = |k: usize, batch: &mut Batch| trace(engine, plan, seed, &batches[k], batch);
-    pool.each(batches.len(), trace).into_iter().flatten().collect()
+    let mut all = Sent::default();
+    for Sent { mut stored, met } in pool.each(batches.len(), trace) {
+        all.stored.append(&mut stored);
+        all.met += met;
+    }
+    all
 }
 
 /// Cuts the shares into batches of at most [`PATHS`] photons.
@@ -40,24 +54,27 @@ pub fn batches(shares: impl Iterator<Item = Share>) -> Vec<Vec<Share>> {
 }
 
 /// One batch.
-fn trace(engine: Engine<'_>, plan: &Plan, seed: u32, shares: &[Share], batch: &mut Batch) -> Vec<Photon> {
+fn trace(engine: Engine<'_>, plan: &Plan, seed: u32, shares: &[Share], batch: &mut Batch) -> Sent {
     let Engine { scene, kernels, .. } = engine;
     let count = load(shares, batch);
     batch.watch.resume();
     let start = Instant::now();
     kernels.photons_emit(scene, plan, PhotonPass { seed, count, light_paths: None }, batch);
-    let mut stored = Vec::new();
+    let mut sent = Sent::default();
     let mut event = 0;
     while batch.paths.len > 0 {
         closest(engine, false, batch);
         batch.photons.len = 0;
         kernels.photons_scatter(scene, plan, seed, event, batch);
-        store(&batch.photons, &mut stored);
+        store(&batch.photons, &mut sent.stored);
+        if event == 0 {
+            sent.met = batch.paths.len as u32;
+        }
         event += 1;
     }
     batch.watch.lap(Stage::Photons);
     batch.watch.costs.photons_since(start);
-    stored
+    sent
 }
 
 /// The photons of a batch; how many.

@@ -37,7 +37,7 @@ fn of_picture(film: &Film, desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic
     if film.crop() != Crop::whole(film.size()) {
         return None;
     }
-    empty(film, desc).or_else(|| dark(film, desc)).or_else(|| white(film, desc))
+    empty(film, desc).or_else(|| dark(film, desc)).or_else(|| white(film, desc)).or_else(|| clipped(film, desc))
 }
 
 /// What is hard to tell from black on a screen: 10 of 255, by the slope of sRGB next to black (IEC 61966-2-1).
@@ -46,6 +46,12 @@ const DARK: f64 = 10.0 / 255.0 / 12.92;
 const DIM: f64 = 0.02;
 /// What clipping has taken the colour of.
 const WHITE: f64 = 2.0;
+/// What has another colour than it should, by clipping of a channel.
+const CLIPPED: f64 = 1.25;
+/// More of what is seen is clipped than is windows and gleams.
+const MOST_CLIPPED: f64 = 0.25;
+/// With more noise what is clipped is chance.
+const MOST_NOISE: f64 = 0.25;
 /// Of so many pixels that are not of the background alone something is said; of fewer, the rest may be meant.
 const MOST_BACKGROUND: f64 = 0.9;
 
@@ -100,6 +106,33 @@ fn white(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
         Diagnostic::warning(codes::ALL_WHITE, desc.effects.exposure.span, message)
             .expected("what is seen between black, 0, and white, 1")
             .hint(way(desc, 0.5 / pale, "a darker background, darker lights")),
+    )
+}
+
+/// Of a picture in which a channel is clipped in a quarter of what is no background, lamps that are seen left out: they
+/// have no noise.
+fn clipped(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
+    if !is_plain(desc) || film.relative_noise() > MOST_NOISE {
+        return None;
+    }
+    let brightest = |radiance: [f64; 3]| radiance.into_iter().fold(0.0, f64::max);
+    let seen = without_background(film, desc, brightest);
+    let [width, height] = film.size().map(f64::from);
+    let exposed = desc.effects.exposure.value.exp2();
+    let [columns, rows] = film.size();
+    let is_of_lamp = |x: u32, y: u32| x > 0 && film.radiance(x, y) == film.radiance(x - 1, y);
+    let bright = (0..rows)
+        .flat_map(|y| (0..columns).map(move |x| (x, y)))
+        .filter(|&(x, y)| exposed * brightest(film.radiance(x, y)) > CLIPPED && !is_of_lamp(x, y));
+    let share = bright.count() as f64 / seen.len().max(1) as f64;
+    if share < MOST_CLIPPED || (seen.len() as f64) < (1.0 - MOST_BACKGROUND) * width * height {
+        return None;
+    }
+    let message = format!("{:.0} % of what is seen is too bright to have its colour", 100.0 * share);
+    Some(
+        Diagnostic::warning(codes::ALL_WHITE, desc.effects.exposure.span, message)
+            .expected("what is seen between black, 0, and white, 1, in each channel")
+            .hint(way(desc, 1.0 / at_share(seen, 0.9), "darker lights")),
     )
 }
 

@@ -324,7 +324,19 @@ pub fn range(args: &RenderArgs, frames: args::Frames, shell: &Shell) -> Result<(
     if let args::Frames::Range(first, _) = frames {
         (scene.frame, scene.is_of_frames) = (Some(first), true);
     }
+    if let args::Frames::Range(first, last) = frames
+        && first > 0
+    {
+        // What is told of the last one holds for those before.
+        let of_last = args::SceneArgs { frame: Some(last), ..scene.clone() };
+        load(&of_last, &shell.without_warnings())?;
+    }
     let desc = load(&scene, &shell.without_warnings())?;
+    if let args::Frames::Range(_, last) = frames
+        && last >= desc.animation.frames.value
+    {
+        load(&args::SceneArgs { frame: Some(last), ..scene.clone() }, &shell.without_warnings())?;
+    }
     let (first, last) = match frames {
         args::Frames::Range(first, last) => (first, last),
         args::Frames::All => (0, desc.animation.frames.value - 1),

@@ -76,7 +76,7 @@ pub(super) fn run(
     if shell.is_told() {
         let names = files.iter().map(|file| file.path.as_str()).collect::<Vec<_>>().join(", ");
         let samples = desc.render.samples.value;
-        let noise = noise(relative, 1.0, samples).map_or(String::new(), |noise| format!("; {noise}"));
+        let noise = noise(relative, samples).map_or(String::new(), |noise| format!("; {noise}"));
         let per_second = pixels as f64 * f64::from(samples) / seconds;
         shell.say(&format!("{names} in {:.2} s, {}{noise}", started.elapsed().as_secs_f64(), rate(per_second)));
     }

@@ -31,7 +31,7 @@ impl<F: Lanes> View<F> {
                 // point is taken, but what the offset bends the direction by.
                 Some(normal) => {
                     let normal = V3::<F>::splat(normal.as_vec3().to_array());
-                    measure = tilted(offset, normal, focus);
+                    measure = tilted(offset, normal, focus).abs();
                     direction.scale(focus).sub(offset.scale(direction.dot(normal)))
                 }
             };
@@ -62,8 +62,9 @@ impl<F: Lanes> View<F> {
             // o . n).
             let normal = V3::<F>::splat(normal.as_vec3().to_array());
             let along = direction.scale(reach);
-            measure = tilted(offset, normal, focus);
-            at = offset.mad(along.dot(normal) / (focus * measure), along);
+            let larger = tilted(offset, normal, focus);
+            measure = larger.abs();
+            at = offset.mad(along.dot(normal) / (focus * larger), along);
         }
         let x = at.dot(self.right) / (self.right.dot(self.right) * focus) - c(shift[0] as f32);
         let y = at.dot(self.up) / (self.up.dot(self.up) * focus) - c(shift[1] as f32);
@@ -72,7 +73,8 @@ impl<F: Lanes> View<F> {
 }
 
 /// How much larger the picture is from a point of the lens whose plane of focus is tilted: the determinant of the map
-/// of [`View::perspective_ray`] from directions from the eye to those from there.
+/// of [`View::perspective_ray`] from directions from the eye to those from there. Beyond the plane of focus, where that
+/// cuts through the lens, it is below zero: the picture is upside down, and as much larger.
 #[inline(always)]
 fn tilted<F: Lanes>(offset: V3<F>, normal: V3<F>, focus: F) -> F {
     F::splat(1.0) - offset.dot(normal) / focus

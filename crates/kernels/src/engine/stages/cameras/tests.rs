@@ -65,6 +65,8 @@ fn cameras() -> Vec<Camera> {
         stereo(camera(through([0.0, 0.5], Some(Lens { tilted, ..lens })), 0.35, 0.5, 0.0), -0.03, false),
         stereo(camera(Projection::Panorama, 1.0, 1.0, 0.0), 0.0, true),
         stereo(camera(Projection::Panorama, 1.0, 1.0, 0.0), 0.0, false),
+        // The plane of focus cuts through the lens.
+        camera(through([0.0, 0.5], Some(Lens { tilted, radius: 1.0, focus_distance: 0.5, ..lens })), 0.7, 0.5, 0.0),
     ]
 }
 

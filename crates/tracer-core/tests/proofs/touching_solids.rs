@@ -1,0 +1,89 @@
+//! Solids whose flat walls lie in one plane with flat faces of other things: nothing gets between what touches, and
+//! what lies flush in a wall is seen.
+
+use crate::support::{compiled, film};
+use scene_format::{SceneDesc, Syntax, load_str};
+use std::path::Path;
+
+fn described(camera: &str, objects: &str) -> SceneDesc {
+    let text = format!(
+        "Scene(image: Image(width: 32, height: 32), render: Render(max_bounces: 12), camera: Camera({camera}), \
+         objects: [{objects}])"
+    );
+    load_str("s.ron", &text, Syntax::Ron, Path::new(""), &[]).unwrap_or_else(|error| panic!("{error}\n{text}")).scene
+}
+
+/// The brightest and the least of all pixels.
+fn range(desc: &SceneDesc) -> [f64; 2] {
+    let film = film(&compiled(desc), 64, 1);
+    let pixels = (0..32 * 32).map(|k| film.radiance(k % 32, k / 32)[0]);
+    pixels.fold([0.0, f64::INFINITY], |[most, least], x| [f64::max(most, x), least.min(x)])
+}
+
+/// A tumbler on a table, and other bodies.
+const BODIES: [&str; 4] = [
+    "Difference(material: @, objects: [Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 0.5), \
+     Cylinder(from: (0, 0.1, 0), to: (0, 1.1, 0), radius: 0.4)])",
+    "Union(material: @, objects: [Box(center: (0, 0.4, 0), size: 0.8)])",
+    "Difference(material: @, transform: [Rotate(axis: (0, 1, 0), degrees: 20)], objects: [\
+     Box(center: (0, 0.4, 0), size: 0.8), Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 0.2)])",
+    "Intersection(material: @, objects: [Sphere(center: (0, 0, 0), radius: 0.7), Plane(normal: (0, -1, 0))])",
+];
+
+/// A lamp under an opaque floor shines through nothing that stands on it.
+#[test]
+fn nothing_gets_between_a_solid_and_what_it_stands_on() {
+    let lamp = "Sphere(center: (0, -1.5, 0), radius: 0.4, material: Emissive(radiance: 50))";
+    let floors = [
+        "Rectangle(size: 40, material: Diffuse(albedo: 0.7))",
+        "Plane(material: Diffuse(albedo: 0.7))",
+        "Box(center: (0, -0.5, 0), size: (30, 1, 30), material: Diffuse(albedo: 0.7))",
+        "Cylinder(from: (0, -0.5, 0), to: (0, 0, 0), radius: 30, material: Diffuse(albedo: 0.7))",
+        "Difference(objects: [Box(center: (0, -0.5, 0), size: (30, 1, 30)), Box(center: (9, 0, 0), size: 1)])",
+    ];
+    for body in BODIES {
+        for material in ["Transparent(ior: 1.5)", "Diffuse(albedo: 0.6)", "Mirror(reflectance: 0.9)"] {
+            for floor in floors {
+                let objects = format!("{floor}, {}, {lamp}", body.replace('@', material));
+                let desc = described("position: (0.5, 2.2, 4), look_at: (0, 0.3, 0), fov: 30", &objects);
+                let [most, _] = range(&desc);
+                assert_eq!(most, 0.0, "{objects}");
+            }
+        }
+    }
+}
+
+/// Without light outside, no light comes out under a shade that stands on the floor.
+#[test]
+fn no_light_comes_out_under_a_shade_of_solids() {
+    let shade =
+        "Difference(objects: [Box(center: (0, 0.5, 0), size: 1), Box(center: (0, 0.4, 0), size: (0.9, 1, 0.9))])";
+    let lamp = "Sphere(center: (0, 0.4, 0), radius: 0.1, material: Emissive(radiance: 50))";
+    for floor in ["Rectangle(size: 40)", "Plane()", "Box(center: (0, -0.5, 0), size: (30, 1, 30))"] {
+        let desc =
+            described("position: (0.5, 2.2, 4), look_at: (0, 0.3, 0), fov: 30", &format!("{floor}, {shade}, {lamp}"));
+        assert_eq!(range(&desc)[0], 0.0, "{floor}");
+    }
+}
+
+/// What lies in a wall of a solid and faces the same way is seen, all of it: the camera sees nothing else.
+#[test]
+fn what_lies_flush_in_a_wall_is_seen() {
+    let lamp = "Emissive(radiance: 3)";
+    for wall in [
+        "Union(objects: [Box(center: (0, -0.5, 0), size: (6, 1, 6))])",
+        "Difference(objects: [Box(center: (0, -0.5, 0), size: (6, 1, 6)), Sphere(center: (2, 0, 2), radius: 0.5)])",
+        "Difference(material: Mirror(), objects: [Box(center: (0, 0, 0), size: (6, 2, 6)), \
+         Box(center: (0, 1, 0), size: (5, 2, 5))])",
+    ] {
+        for flush in [
+            format!("Rectangle(size: 2, material: {lamp})"),
+            format!("Disk(radius: 1, material: {lamp})"),
+            format!("Polygon(points: [(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)], material: {lamp})"),
+        ] {
+            let camera = "position: (0, 3, 0.5), look_at: (0, 0, 0), fov: 20";
+            let [most, least] = range(&described(camera, &format!("{wall}, {flush}")));
+            assert!((most - 3.0).abs() < 1e-5 && (least - 3.0).abs() < 1e-5, "{wall} {flush}: {least} to {most}");
+        }
+    }
+}
