@@ -19,6 +19,19 @@ const TRANSFORMS: [&str; 4] = ["Translate", "Rotate", "Scale", "Matrix"];
 impl Reader<'_> {
     /// A transform as other programs write it, `RotateY(30)` or `Translate(x: 1)`: reports it, and says that it did.
     pub(crate) fn transform_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
+        let bare = matches!(item.kind(), Kind::Tuple | Kind::List) && item.name().is_none();
+        if let Some([x, y, z]) = numbers(item).filter(|_| bare).and_then(|all| <[&str; 3]>::try_from(all).ok()) {
+            let mended = match item.syntax() {
+                Syntax::Ron => format!("Translate(({x}, {y}, {z}))"),
+                syntax => syntax.of_toml(format!("{{ Translate = [{x}, {y}, {z}] }}")).into_owned(),
+            };
+            let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), "a transform cannot be three numbers")
+                .expected("one of Translate(..), Rotate(..), Scale(..) and others")
+                .hint(format!("write {mended}"));
+            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            self.report(fault);
+            return true;
+        }
         let Some((name, body)) = kind_and_body(item) else { return false };
         let Some(steps) = meant_transform(&name, body) else { return false };
         let mended = match item.syntax() {

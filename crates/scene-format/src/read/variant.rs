@@ -3,7 +3,7 @@
 use super::hints::{kind_elsewhere, other_kind};
 use super::{Fields, Reader, describe, plain};
 use crate::codes;
-use crate::desc::Metal;
+use crate::desc::{Metal, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::schema::{Content, EnumDef, Type, VariantDef};
 use crate::suggest;
@@ -135,6 +135,9 @@ impl Reader<'_> {
             fault.hint = format!("put `{field}` below [{list}.{name}]");
         } else if own {
             fault.hint = format!("put `{field}` into the braces of `{name}`");
+        } else if item.lexeme().starts_with("[[") && Scene::DEF.field(&field).is_some() {
+            let list = item.lexeme();
+            fault.hint = format!("what stands below {list} belongs to it: put `{field}` above the first [header]");
         }
         self.report(fault);
     }
