@@ -18,9 +18,12 @@ use tracer_kernels::shapes::csg::Operation;
 const PART: f64 = 1.0 / 65_536.0;
 /// Walls are in one plane with faces that are no further than this, in the same parts.
 const NEAR: f64 = 1e-6;
-/// No more pairs of a wall and a face than this are looked at, nor more triangles: a tenth of a second.
+/// No more pairs of a wall and a face than this are looked at, nor more faces: a tenth of a second, and 40 MB. Those
+/// beyond are left out.
 const MOST_PAIRS: usize = 20_000_000;
 const MOST_FACES: usize = 400_000;
+/// Of an object that has more triangles than this, its copies' counted, none is looked at.
+const MOST_TRIANGLES: usize = 4_000_000;
 
 /// A flat face of another object, in the world.
 struct Face {
@@ -55,7 +58,12 @@ pub fn part(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
     if walls == 0 {
         return;
     }
-    let Some(mut faces) = faces(loaded, placed, curved, MOST_PAIRS / walls) else { return };
+    let copies = solids.iter().flat_map(|solid| solid.maps.iter().map(|map| solid.bounds(map)));
+    let [low, high] = copies
+        .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], [least, most]| [low.min(least), high.max(most)]);
+    let margin = 1e-3 * (high - low).max_element();
+    let mut faces =
+        faces((loaded, placed, curved), [low - margin, high + margin], (MOST_PAIRS / walls).min(MOST_FACES));
     let eye = DVec3::from(desc.camera.position.value);
     // Of two solids the later one is moved.
     for solid in solids {
@@ -151,8 +159,7 @@ impl Face {
             let along = face.normal.dot(self.normal);
             let in_plane = (face.point - self.point).dot(self.normal).abs() <= near && along.abs() >= 1.0 - 1e-12;
             let [low, high] = self.bounds;
-            let overlaps = (low - near).cmple(face.bounds[1]).all() && face.bounds[0].cmple(high + near).all();
-            if !in_plane || !overlaps {
+            if !in_plane || !overlap(&[low - near, high + near], &face.bounds) {
                 continue;
             }
             if along > 0.0 {
@@ -164,27 +171,14 @@ impl Face {
     }
 }
 
-/// The flat faces of all objects but solids; `None`: they are more than these.
-fn faces(loaded: &Loaded, placed: &Placed, curved: &[Curved], most: usize) -> Option<Vec<Face>> {
-    let most = most.min(MOST_FACES);
+/// Whether two boxes have a point in common.
+fn overlap(a: &[DVec3; 2], b: &[DVec3; 2]) -> bool {
+    a[0].cmple(b[1]).all() && b[0].cmple(a[1]).all()
+}
+
+/// The flat faces of all objects but solids that reach into this box, so many at most.
+fn faces((loaded, placed, curved): (&Loaded, &Placed, &[Curved]), within: [DVec3; 2], most: usize) -> Vec<Face> {
     let mut faces = Vec::new();
-    for k in 0..placed.maps.len() {
-        let Some(data) = loaded.file(k) else { continue };
-        let maps = placed.maps_of(k);
-        if faces.len() + data.triangles.len().saturating_mul(maps.len()) > most {
-            return None;
-        }
-        for map in maps {
-            let facing = map.matrix3.determinant().signum();
-            faces.extend(data.triangles.iter().filter_map(|corners| {
-                let [a, b, c] =
-                    corners.map(|k| data.positions.get(k as usize).map_or(DVec3::ZERO, |p| DVec3::from(*p)));
-                let [a, b, c] = [a, b, c].map(|p| map.transform_point3(p));
-                let normal = (b - a).cross(c - a).try_normalize()? * facing;
-                Some(Face { point: a, normal, bounds: [a.min(b).min(c), a.max(b).max(c)] })
-            }));
-        }
-    }
     for object in curved {
         // Where its flat sides are, and which way they face.
         let sides: &[(f64, f64)] = match object.unit {
@@ -192,16 +186,43 @@ fn faces(loaded: &Loaded, placed: &Placed, curved: &[Curved], most: usize) -> Op
             UnitShape::Cone { caps: true, .. } => &[(1.0, 1.0), (-1.0, -1.0)],
             _ => continue,
         };
-        if faces.len() + sides.len().saturating_mul(object.maps.len()) > most {
-            return None;
-        }
-        for map in object.maps.iter() {
+        let copies = object.maps.iter().map(|map| {
             let bounds = if object.is_endless() { endless() } else { object.unit.bounds(map) };
+            (map, bounds)
+        });
+        for (map, bounds) in copies.filter(|(_, bounds)| overlap(bounds, &within)) {
             faces.extend(sides.iter().map(|(at, facing)| {
                 let side = *map * DAffine3::from_translation(*at * DVec3::Z);
                 Face { bounds, ..Face::of_map(&side, *facing) }
             }));
         }
+        faces.truncate(most);
     }
-    Some(faces)
+    for k in 0..placed.maps.len() {
+        let Some(data) = loaded.file(k) else { continue };
+        let maps = placed.maps_of(k);
+        if data.triangles.len().saturating_mul(maps.len()) > MOST_TRIANGLES {
+            continue;
+        }
+        for map in maps.iter().filter(|map| overlap(&box_under(placed.box_of(k), map), &within)) {
+            let facing = map.matrix3.determinant().signum();
+            let of_triangle = |corners: &[u32; 3]| {
+                let [a, b, c] =
+                    corners.map(|k| data.positions.get(k as usize).map_or(DVec3::ZERO, |p| DVec3::from(*p)));
+                let [a, b, c] = [a, b, c].map(|p| map.transform_point3(p));
+                let bounds = [a.min(b).min(c), a.max(b).max(c)];
+                let normal = (b - a).cross(c - a).try_normalize()? * facing;
+                overlap(&bounds, &within).then_some(Face { point: a, normal, bounds })
+            };
+            faces.extend(data.triangles.iter().filter_map(of_triangle).take(most.saturating_sub(faces.len())));
+        }
+    }
+    faces
+}
+
+/// A box around a box under a map.
+fn box_under([low, high]: [DVec3; 2], map: &DAffine3) -> [DVec3; 2] {
+    let pick = |k: usize, axis: usize| if k >> axis & 1 == 0 { low[axis] } else { high[axis] };
+    let corners = (0..8).map(|k| map.transform_point3(DVec3::new(pick(k, 0), pick(k, 1), pick(k, 2))));
+    corners.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], p| [low.min(p), high.max(p)])
 }
