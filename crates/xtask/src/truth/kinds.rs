@@ -473,7 +473,7 @@ type Kind = (&'static str, fn(&mut World, &mut Random), Relation, bool);
 
 /// All kinds, drawn alike.
 #[rustfmt::skip]
-pub const KINDS: [Kind; 19] = [
+pub const KINDS: [Kind; 20] = [
     ("plain room", plain_room, Relation::Path, false),
     ("casters", casters, Relation::Path, false),
     ("bulbs", bulbs, Relation::Path, false),
@@ -493,6 +493,7 @@ pub const KINDS: [Kind; 19] = [
     ("ring", super::rings::ring, Relation::Path, false),
     ("shut-in lamp", shut_in_lamp, Relation::ShutIn, false),
     ("furnace", super::furnace::furnace, Relation::Furnace, false),
+    ("standing solids", super::standing::standing, Relation::Dark, false),
 ];
 
 /// Whether a pattern lies in the scene's space, whatever is done to what it is on.

@@ -28,6 +28,7 @@ pub mod shining;
 mod shrink;
 mod solids;
 pub mod squares;
+mod standing;
 mod textures;
 pub mod trial;
 mod view;
