@@ -119,6 +119,7 @@ pub fn translated(document: &Document, diagnostics: &[Diagnostic]) -> Vec<lsp_ty
 }
 
 fn one(document: &Document, fault: &Diagnostic) -> lsp_types::Diagnostic {
+    let fault = &fault.in_syntax(document.syntax);
     let mut message = fault.message.clone();
     if let Some(elsewhere) = &fault.elsewhere {
         let line = if elsewhere.line > 0 { format!(", line {}", elsewhere.line) } else { String::new() };

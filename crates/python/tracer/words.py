@@ -245,7 +245,7 @@ class Render(TypedDict, total=False):
     caustics: How light comes over mirrors and glass to diffuse surfaces.
     indirect: How light comes to second vertices over further surfaces.
     clamp: The most that one camera sample counts: where the largest channel of what it has found, lamps in view included, is more than this (before exposure), all three are scaled down together, so that the hue stays. That takes fireflies, and their light with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing. What one light path brings (`caustics`) counts at most as much; a caustic of many may be brighter. Unit: W/(sr m^2).
-    noise: The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their standard error, relative to the mean luminance, as the report has it. 0.01 is hardly seen. It is told by how two halves of the samples differ: 0.8 to 1.2 times the true error (docs/noise.md). `samples` are the most. It is looked at after whole passes only, four times while the samples double, so the picture depends on nothing else. `None`: all samples.
+    noise: The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their standard error, relative to the mean luminance, as the report has it. 0.01 is hardly seen. It is told by how two halves of the samples differ, 0.8 to 1.2 times the true error (docs/noise.md), and where something moves while the shutter is open by how they scatter, which is more. `samples` are the most. It is looked at after whole passes only, four times while the samples double, so the picture depends on nothing else; first when all pixels have 16 samples, 64 where something moves. What is rarer is missing in a picture that ends then, and in its noise. `None`: all samples.
     time: The rendering ends when the program has run so long. `samples` are the most. `None`: all samples. Unit: seconds.
     """
 
@@ -1582,11 +1582,11 @@ class SceneDict(_SceneDictRequired, _SceneDictFields, total=False):
     """A whole scene: one file.
 
     version: Version of the language. Files of version 1 load for ever.
-    include: Files whose `vars`, `textures`, `materials` and `cameras` are taken as if they stood here, but that names of this file win, and of two files those of the later. Paths in a file start from its folder.
+    include: Files whose `vars`, `textures`, `materials`, `cameras`, `image`, `render`, `effects`, `output` and `background` are taken as if they stood here, but that what this file says wins, name by name and field by field, and of two files what the later says. Paths in a file start from its folder.
     vars: Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour or truth value.
     animation: Frames and time, for expressions.
     cameras: Cameras by name.
-    camera: The camera, or the name of one of `cameras`, as `--camera` chooses it. It may be left out where the file's own `cameras` are one or none.
+    camera: The camera, or the name of one of `cameras`, as `--camera` chooses it. It may be left out where there is one among `cameras`, or none; those of files that are included count where the scene has none of its own.
     image: The picture's size.
     render: How to render.
     effects: Film and lens effects.

@@ -82,6 +82,7 @@ mod tape;
 mod tree;
 mod words;
 mod write;
+mod written;
 
 pub use codes::explain;
 pub use convert::{comments, convert, format, is_library};

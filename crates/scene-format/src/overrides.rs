@@ -361,6 +361,11 @@ impl Setter {
             }
             if let Some(option) = command_line(name, def) {
                 (fault.hint, fault.edit) = (option.to_owned(), None);
+            } else if def.name == "Scene" && name == "time" {
+                fault.hint = "the time goes by the frame: --frame 12".to_owned();
+            } else if fault.hint.is_empty() && item.fields().any(|(key, _)| key.text() == "include") {
+                fault.hint =
+                    format!("a name of `vars`, in files that are included too, is set by vars.{}", shortened(name));
             }
             return Err(fault);
         };
@@ -466,6 +471,9 @@ impl Setter {
                 names.push(value::name(step));
                 Ok(())
             }
+            (Type::Map(of), What::Name(name)) => Err(self
+                .fault(codes::BAD_SET_PATH, step, format!("{} is not written in the scene", crate::read::plain(noun)))
+                .hint(value::as_a_whole(noun, name, *of))),
             (Type::Map(_) | Type::List(_), _) => Err(self
                 .fault(codes::BAD_SET_PATH, step, format!("{} is not written in the scene", crate::read::plain(noun)))
                 .hint("set it as a whole")),

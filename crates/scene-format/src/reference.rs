@@ -178,14 +178,18 @@ do elsewhere.
 `DropTo` and `FitTo` go by all that stands in
   it: a table of boxes comes to stand on the floor by one `DropTo(0)`.
 
-`include: [\"house.ron\"]` at the scene's top takes `vars`, `textures`, `materials` and `cameras` of other \
+`include: [\"house.ron\"]` at the scene's top takes `vars`, `textures`, `materials`, `cameras` and settings of other \
 files. Among the \
 objects, `Include(file: \"chair.ron\", vars: {
 \"height\": 0.5 }, materials: { \"seat\": \"oak\" }, placements: Ring(count: 4, radius: 1))` takes another scene's \
 objects and lights.
 
-- Names of the including file win against those of `include`, and of two files those of the later; the expressions of \
-their `vars` see the names that won. Materials and textures of a file keep the textures that it names itself.
+- Names of the including file win against those of `include`, and of two files those of the later; all expressions of \
+the files see the `vars` that won, those of `--set`, too. Materials and textures of a file keep the textures that it \
+names itself.
+- Settings, `image`, `render`, `effects`, `output` and `background`, are taken field by field where the scene itself \
+says nothing: six figures of one style include one file that says how large they are and how they are rendered. A file \
+that is included has no `camera` (but `cameras`), no `animation`, no `objects` and `lights`, which is told.
 - An `Include` has names of its own: it sees no `vars`, textures and materials of this scene, nor \
 this scene its. `vars` and \
 `materials` give names that

@@ -3,15 +3,17 @@
 //! Nothing is printed here: the functions return strings, and the caller says whether there are colours and how wide
 //! the terminal is.
 
+mod alike;
 mod sarif;
 
 pub use sarif::Sarif;
 
 use crate::diagnostic::{Diagnostic, Edit, Severity, Source, Span};
+use crate::written::in_their_syntax;
+use alike::grouped;
 use annotate_snippets::renderer::{DEFAULT_TERM_WIDTH, DecorStyle};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use serde::Serialize;
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// How text is set.
@@ -103,47 +105,6 @@ impl Lines<'_> {
     }
 }
 
-/// More faults that are alike than this are told by the first of them.
-const MANY_ALIKE: usize = 3;
-/// So many of their lines are named.
-const SHOWN_LINES: usize = 8;
-
-type Alike<'d> = (Severity, &'d str, &'d str, &'d str, u32);
-
-/// What diagnostics that are alike have in common; those that no source shows stand alone.
-fn alike<'d>(d: &'d Diagnostic, lines: &[Lines<'_>]) -> Option<Alike<'d>> {
-    let shown = d.elsewhere.is_none() && (d.span.source as usize) < lines.len();
-    shown.then_some((d.severity, d.code.as_str(), &*d.message, &*d.expected, d.span.source))
-}
-
-/// For each diagnostic what is said of the others like it: `None` where another one tells of it.
-fn grouped(diagnostics: &[Diagnostic], lines: &[Lines<'_>]) -> Vec<Option<String>> {
-    let mut groups: BTreeMap<Alike<'_>, Vec<usize>> = BTreeMap::new();
-    for (index, diagnostic) in diagnostics.iter().enumerate() {
-        if let Some(key) = alike(diagnostic, lines) {
-            groups.entry(key).or_default().push(index);
-        }
-    }
-    let mut said = vec![Some(String::new()); diagnostics.len()];
-    for (_, group) in groups.into_iter().filter(|(_, group)| group.len() > MANY_ALIKE) {
-        let mut numbers: Vec<usize> = Vec::new();
-        for &index in &group[1..] {
-            said[index] = None;
-            let span = diagnostics[index].span;
-            numbers.push(lines[span.source as usize].index.line(span.start as usize) + 1);
-        }
-        numbers.dedup();
-        let shown = |numbers: &[usize]| numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-        let places = match numbers.as_slice() {
-            [only] => format!("line {only}"),
-            numbers if numbers.len() <= SHOWN_LINES => format!("lines {}", shown(numbers)),
-            numbers => format!("lines {} .. {}", shown(&numbers[..SHOWN_LINES]), numbers[numbers.len() - 1]),
-        };
-        said[group[0]] = Some(format!("{} more like this, on {places}", group.len() - 1));
-    }
-    said
-}
-
 /// All diagnostics as text, a blank line after each. Where many are alike, the first one tells of the others.
 pub fn text(diagnostics: &[Diagnostic], sources: &[Source], style: Style) -> String {
     texts(diagnostics, sources, style).into_iter().map(|(_, text)| text + "\n\n").collect()
@@ -151,6 +112,7 @@ pub fn text(diagnostics: &[Diagnostic], sources: &[Source], style: Style) -> Str
 
 /// As [`text`], one by one: which diagnostic, and its text. Those that another one tells of are left out.
 pub fn texts(diagnostics: &[Diagnostic], sources: &[Source], style: Style) -> Vec<(usize, String)> {
+    let diagnostics = &in_their_syntax(diagnostics, sources)[..];
     let lines = lines(sources);
     let renderer = if style.color { Renderer::styled() } else { Renderer::plain() };
     let renderer = renderer.term_width(style.width.max(40)).decor_style(DecorStyle::Ascii);
@@ -393,6 +355,7 @@ struct JsonEdit<'d> {
 /// All diagnostics as JSON, one object a line. Lines and columns count from 1 (columns in characters), bytes from 0;
 /// `end` is one past the last.
 pub fn json_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
+    let diagnostics = &in_their_syntax(diagnostics, sources)[..];
     let lines = lines(sources);
     let place = |span: Span| -> Option<JsonPlace<'_>> {
         let source = lines.get(span.source as usize)?;
@@ -445,6 +408,7 @@ pub fn json_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
 /// All diagnostics as annotations that GitHub's Actions show in the changed lines of a pull request: one workflow
 /// command a line.
 pub fn github_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
+    let diagnostics = &in_their_syntax(diagnostics, sources)[..];
     // As the runner decodes them.
     let escaped = |text: &str| text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A");
     let property = |text: &str| escaped(text).replace(':', "%3A").replace(',', "%2C");

@@ -1,8 +1,8 @@
 //! Files that a scene includes: whose names win, where paths start, what is said of faults, and that nothing goes on
 //! for ever.
 
-use scene_format::desc::{Albedo, Material, MaterialRef, Object};
-use scene_format::{FileKind, LoadError, Loaded, Override, Syntax, convert, hash_hex, load, load_with};
+use scene_format::desc::{Albedo, Background, Material, MaterialRef, Object};
+use scene_format::{FileKind, LoadError, Loaded, Override, SceneDesc, Syntax, convert, hash_hex, load, load_with};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -63,12 +63,108 @@ fn a_library_may_be_included_by_several() {
         ),
     ];
     let folder = folder("several", &files);
-    for name in ["twice.ron", "room.ron"] {
+    for (name, w) in [("twice.ron", 0.25), ("room.ron", 0.75)] {
         let loaded = load(&folder.join(name)).expect("right");
         let Object::Sphere(ball) = &loaded.scene.objects[0].value else { panic!("a ball") };
         assert_eq!(ball.radius.value, 3.0, "{name}");
-        assert_eq!(albedo(&loaded, 0), Albedo::Color([0.25; 3].into()), "{name}");
+        let Albedo::Color(albedo) = albedo(&loaded, 0) else { panic!("a colour") };
+        assert_eq!(albedo.value, [w; 3], "{name}");
     }
+}
+
+/// What wins does so in what the files say, too: materials, cameras, other vars.
+#[test]
+fn vars_that_win_do_so_in_the_files() {
+    let lib = r##"Scene(vars: { "n": 1.5, "twice": "=2*n" },
+        cameras: { "c": Camera(position: (0, "=n", 9), look_at: (0, 0, 0)) },
+        materials: { "m": Diffuse(albedo: "=n/4"), "t": Diffuse(albedo: "=twice/8") })"##;
+    let scene = |vars: &str| {
+        format!(
+            "Scene(include: [\"lib.ron\"], {vars} background: 1, objects: [Sphere(center: (0, 0, 0), radius: \
+             \"=twice\", material: \"m\"), Sphere(center: (0, 0, 0), radius: 1, material: \"t\")])"
+        )
+    };
+    let [own, without] = [scene("vars: { \"n\": 2 },"), scene("")];
+    let folder = folder("winning", &[("lib.ron", lib), ("own.ron", &own), ("without.ron", &without)]);
+    let set = [Override::from("vars.n=2")];
+    for (loaded, n) in [
+        (load(&folder.join("own.ron")), 2.0),
+        (load(&folder.join("without.ron")), 1.5),
+        (load_with(&folder.join("without.ron"), &set), 2.0),
+    ] {
+        let loaded = loaded.expect("right");
+        let Object::Sphere(ball) = &loaded.scene.objects[0].value else { panic!("a ball") };
+        assert_eq!(ball.radius.value, 2.0 * n);
+        for object in 0..2 {
+            let Albedo::Color(albedo) = albedo(&loaded, object) else { panic!("a colour") };
+            assert_eq!(albedo.value, [n / 4.0; 3]);
+        }
+        // The only camera that there is is meant.
+        assert_eq!(loaded.scene.camera.position.value, [0.0, n, 9.0]);
+        assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    }
+}
+
+/// Settings are taken field by field: of the scene itself, of the later file, of what that includes.
+#[test]
+fn settings_of_files_are_taken() {
+    let files = [
+        (
+            "style.toml",
+            "background = 0.5\n[image]\nwidth = 360\nheight = 240\n[render]\nsamples = 32\nseed = 9\n\
+             [output]\nalpha = true\n",
+        ),
+        ("fine.ron", r##"Scene(include: ["style.toml"], render: Render(samples: 64), effects: Effects(exposure: 1))"##),
+        ("a.ron", r##"Scene(include: ["fine.ron"], image: Image(width: 100), objects: [Box(size: 1)])"##),
+        ("b.ron", r##"Scene(include: ["fine.ron", "style.toml"], background: 1, objects: [Box(size: 1)])"##),
+    ];
+    let folder = folder("settings", &files);
+    let [a, b] = ["a.ron", "b.ron"].map(|name| load(&folder.join(name)).expect("right").scene);
+    let told = |scene: &SceneDesc| {
+        let (image, render) = (&scene.image, &scene.render);
+        ([image.width.value, image.height.value, render.samples.value, render.seed.value], scene.output.alpha)
+    };
+    assert_eq!(told(&a), ([100, 240, 64, 9], true));
+    assert_eq!(told(&b), ([360, 240, 32, 9], true));
+    assert_eq!((a.effects.exposure.value, b.effects.exposure.value), (1.0, 1.0));
+    assert_eq!([&a.background, &b.background], [&Background::Color([0.5; 3]), &Background::Color([1.0; 3])]);
+    let set =
+        load_with(&folder.join("a.ron"), &[Override::from("render.samples=5"), Override::from("output.alpha=false")]);
+    assert_eq!(told(&set.expect("right").scene), ([100, 240, 5, 9], false));
+    // What is wrong there is told, and where it is included.
+    for (text, code) in [
+        ("[image]\nwidht = 3\n", "E0201"),
+        ("[output]\nalhpa = true\n", "E0201"),
+        ("[render]\nsamples = \"many\"\n", "E0203"),
+        ("image = 3\n", "E0203"),
+        ("[camera]\nposition = [0, 0, 5]\n", "E0560"),
+        ("[animation]\nframes = 3\n", "E0560"),
+        ("[imagge]\nwidth = 3\n", "E0201"),
+    ] {
+        std::fs::write(folder.join("wrong.toml"), text).expect("a file");
+        for own in ["", "image: Image(height: 100), render: Render(seed: 1), output: Output(layers: []),"] {
+            let scene = format!("Scene(include: [\"wrong.toml\"], {own} background: 1, objects: [Box(size: 1)])");
+            std::fs::write(folder.join("c.ron"), scene).expect("a file");
+            let Err(LoadError::Invalid { diagnostics, .. }) = load(&folder.join("c.ron")) else { panic!("{text}") };
+            let told: Vec<_> = diagnostics.iter().map(|fault| fault.code.as_str()).collect();
+            assert_eq!(told, [code], "{text} {own}");
+            assert!(diagnostics[0].labels.iter().any(|label| label.text.ends_with("is included here")), "{text}");
+        }
+    }
+}
+
+/// A scene that takes cameras of a file says which one it means where they are several.
+#[test]
+fn one_of_several_cameras_of_files_is_chosen() {
+    let camera = |name: &str, y: u32| format!("{name:?}: Camera(position: (0, {y}, 9), look_at: (0, 0, 0))");
+    let lib = format!("Scene(cameras: {{ {}, {} }})", camera("a", 1), camera("b", 2));
+    let scene = |own: &str| format!("Scene(include: [\"lib.ron\"], {own} background: 1, objects: [Box(size: 1)])");
+    let [none, named, own] =
+        [scene(""), scene("camera: \"b\","), scene(&format!("cameras: {{ {} }},", camera("own", 3)))];
+    let folder = folder("cameras", &[("lib.ron", &lib), ("none.ron", &none), ("named.ron", &named), ("own.ron", &own)]);
+    assert_eq!(codes(load(&folder.join("none.ron"))), ["E0411"]);
+    let height = |name: &str| load(&folder.join(name)).expect("right").scene.camera.position.value[1];
+    assert_eq!([height("named.ron"), height("own.ron")], [2.0, 3.0]);
 }
 
 fn codes(result: Result<Loaded, LoadError>) -> Vec<String> {
@@ -104,7 +200,7 @@ fn an_included_scene_has_names_and_paths_of_its_own() {
             Include(file: "scenes/chair.ron")],
     )"#;
     let loaded = room("names", text).expect("a scene");
-    assert_eq!(loaded.warnings, Vec::new());
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     assert_eq!(loaded.scene.objects.len(), 5, "a sphere, two boxes, a mesh, a light");
     assert!(matches!(&loaded.scene.objects[1].value, Object::Box(seat) if seat.center.value == [0.0, 0.5, 0.0]));
     assert_eq!(albedo(&loaded, 1), Albedo::Color([1.0, 0.0, 0.0].into()));
@@ -177,7 +273,7 @@ fn names_of_the_file_itself_win_and_of_two_files_those_of_the_later() {
     let b = r#"Scene(vars: { "both": 2 }, materials: { "m": Diffuse(albedo: 0.5) })"#;
     let folder = folder("wins", &[("s.ron", text), ("a.ron", a), ("b.ron", b)]);
     let loaded = load(&folder.join("s.ron")).expect("a scene");
-    assert_eq!(loaded.warnings, Vec::new());
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     assert!(matches!(&loaded.scene.objects[0].value, Object::Box(cuboid) if cuboid.center.value == [3.0, 2.0, 6.0]));
     assert_eq!(albedo(&loaded, 0), Albedo::Color([0.5; 3].into()));
     assert_eq!(albedo(&loaded, 1), Albedo::Color([0.75; 3].into()));

@@ -270,6 +270,8 @@ pub struct Film {
     part: Option<Part>,
     /// Made of parts, of which some are missing.
     has_gaps: bool,
+    /// All pixels of a sample index see one moment of a scene in which something moves.
+    pub(crate) of_moments: bool,
     seed: u32,
     /// What a radiance of one in the sums stands for; a power of two.
     unit: f64,
@@ -333,6 +335,7 @@ impl Film {
             crop,
             part: None,
             has_gaps: false,
+            of_moments: false,
             seed,
             unit,
             layers: Vec::new(),

@@ -44,6 +44,7 @@ mod marks;
 mod mattes;
 pub mod scene;
 pub mod texture;
+mod whereabouts;
 
 pub use compile::{Asset, Assets, compile_from};
 pub use compile::{CompileError, Kept, check_files, check_files_from, compile, compile_keeping, named_files};
@@ -70,3 +71,4 @@ pub use tracer_kernels::level::Level;
 pub use tracer_kernels::report::{Costs, Counters, Stage, Statistics, TreeWork};
 pub use tracer_kernels::{bvh, sampling, shapes};
 pub use tracer_mesh as mesh;
+pub use whereabouts::{SeenAt, Whereabouts, whereabouts};

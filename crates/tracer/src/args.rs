@@ -266,7 +266,7 @@ Examples:
 
 const INFO_EXAMPLES: &str = "\
 Examples:
-  tracer info scene.toml --resolved
+  tracer info scene.toml --objects
   tracer info fig4.png
 
 Of a picture it tells what made it; `tracer repro` makes it again.";
@@ -281,8 +281,11 @@ pub struct InfoArgs {
     /// As JSON
     #[arg(long)]
     pub json: bool,
+    /// Tell instead where every object is, and in which pixels
+    #[arg(long)]
+    pub objects: bool,
     /// Print the scene with every default filled in instead
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long, conflicts_with_all = ["json", "objects"])]
     pub resolved: bool,
 }
 

@@ -91,8 +91,6 @@ pub struct Part {
 const FLIPPED: u32 = 1;
 /// One more surface of the operand before it.
 const JOINS: u32 = 2;
-/// A plane that is not where the operand has it.
-const MOVED: u32 = 4;
 
 impl Part {
     const PLANE: u32 = 0;
@@ -126,17 +124,6 @@ impl Part {
             operand,
             unused: 0,
         }
-    }
-
-    /// The same plane, which is not where the operand has it.
-    pub fn moved(self) -> Self {
-        Part { flags: self.flags | MOVED, ..self }
-    }
-
-    /// The point of a plane that is nearest to this one.
-    fn nearest_of_plane(&self, point: DVec3) -> DVec3 {
-        let up = DVec3::from(self.object[2]);
-        point - up * (up.dot(point - DVec3::from(self.anchor)) / up.length_squared())
     }
 
     /// An operation on the two solids before it.
@@ -553,8 +540,6 @@ pub struct OnSolid {
     pub operand: u32,
     /// The unit normal, out of the solid.
     pub outward: DVec3,
-    /// The nearest point of it, where it is not where the operand has it.
-    pub moved: Option<DVec3>,
 }
 
 /// The surface of the solid near a point.
@@ -568,6 +553,5 @@ pub(super) fn surface(parts: &[Part], point: DVec3) -> Option<OnSolid> {
 fn surface_of<const P: usize>(parts: &[Part], point: DVec3) -> Option<OnSolid> {
     let border = Near::<P>::of(parts, point).border(parts)?;
     let part = parts.get(border.owner)?;
-    let moved = (part.flags & MOVED != 0).then(|| part.nearest_of_plane(point));
-    Some(OnSolid { operand: part.operand, outward: border.outward, moved })
+    Some(OnSolid { operand: part.operand, outward: border.outward })
 }

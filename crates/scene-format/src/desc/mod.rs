@@ -144,8 +144,9 @@ scene_struct! {
     pub(crate) struct Scene as "Scene", "the scene" {
         /// Version of the language. Files of version 1 load for ever.
         version: u32 = VERSION => Rule::within("version", 1.0, 1.0);
-        /// Files whose `vars`, `textures`, `materials` and `cameras` are taken as if they stood here, but that names of
-        /// this file win, and of two files those of the later. Paths in a file start from its folder.
+        /// Files whose `vars`, `textures`, `materials`, `cameras`, `image`, `render`, `effects`, `output` and
+        /// `background` are taken as if they stood here, but that what this file says wins, name by name and field by
+        /// field, and of two files what the later says. Paths in a file start from its folder.
         include: Includes = Includes => Rule::file(FileKind::Scene);
         /// Values by name, for expressions: texts that begin with `=`, which may stand for any number, vector, colour
         /// or truth value.
@@ -154,8 +155,8 @@ scene_struct! {
         animation: Film = Film::default();
         /// Cameras by name.
         cameras: Vec<NamedCamera> = Vec::new();
-        /// The camera, or the name of one of `cameras`, as `--camera` chooses it. It may be left out where
-        /// the file's own `cameras` are one or none.
+        /// The camera, or the name of one of `cameras`, as `--camera` chooses it. It may be left out where there is one
+        /// among `cameras`, or none; those of files that are included count where the scene has none of its own.
         camera: CameraChoice = CameraChoice::Only;
         /// The picture's size.
         image: Image = Image::default();

@@ -82,8 +82,8 @@ scene_words! {
         /// The unit shading normal in the scene's axes, on the viewer's side. Zero where nothing is hit, so that it is
         /// shorter than one at edges.
         Normal,
-        /// The distance from the eye along the view axis, as `focus_distance` is measured: the mean over the samples
-        /// that hit something, infinite where none does.
+        /// The distance from the eye along the view axis, as `focus_distance` is measured; of panoramas and fisheyes
+        /// that from the eye itself: the mean over the samples that hit something, infinite where none does.
         Depth,
         /// The point that is hit, in the scene's axes and unit: the mean over the samples that hit something, zero
         /// where none does.

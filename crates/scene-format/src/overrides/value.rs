@@ -3,8 +3,10 @@
 
 use super::{Step, What};
 use crate::codes;
+use crate::desc::Scene;
 use crate::diagnostic::Diagnostic;
 use crate::read::shortened;
+use crate::schema::Type;
 
 /// A fault of a value, in words for a whole scene, in those for one value.
 pub(super) fn of_argument(fault: &mut Diagnostic, argument: &str) {
@@ -46,6 +48,17 @@ pub(super) fn name(step: &Step<'_>) -> (usize, usize) {
 pub(super) fn step(name: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
     if !name.is_empty() && name.chars().all(is_plain) { name.to_owned() } else { format!("\"{name}\"") }
+}
+
+/// How an entry of a map of the scene is set that no file of the scene itself has.
+pub(super) fn as_a_whole(noun: &str, name: &str, kind: Type) -> String {
+    let map = Scene::DEF.fields.iter().find(|field| field.noun == noun).map_or("", |field| field.name);
+    let value = kind.group().map_or(String::new(), |def| def.name.to_owned());
+    let value = if value.is_empty() { "Diffuse".to_owned() } else { value };
+    match map {
+        "cameras" | "materials" => format!("set it as a whole: '{map}.{name}={value}(..)'"),
+        _ => "set it as a whole".to_owned(),
+    }
 }
 
 /// What is to be set instead, where a `kind` is given by its name: the one of that name, by its path as a shell takes

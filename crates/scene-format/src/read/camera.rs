@@ -171,8 +171,11 @@ impl Reader<'_> {
             CameraChoice::Written(camera) => return Chosen::written(*camera),
             CameraChoice::Named(name) => name,
             CameraChoice::Only => {
-                let own: Vec<NamedCamera> =
-                    self.cameras.read.iter().filter(|named| !self.is_included(named.name.span)).cloned().collect();
+                let (of_files, mut own): (Vec<NamedCamera>, Vec<NamedCamera>) =
+                    self.cameras.read.iter().cloned().partition(|named| self.is_included(named.name.span));
+                if own.is_empty() {
+                    own = of_files;
+                }
                 return match own.as_slice() {
                     [] => Chosen::written(Camera::default()),
                     [only] => Chosen { camera: only.camera.clone(), name: Some(Arc::clone(&only.name.value)) },

@@ -90,7 +90,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
         reader.nothing_moves(&chosen.camera.shutter);
         let lights = root.fields().find(|(key, _)| key.text() == "lights").map(|(_, value)| value);
         let dark = lights.is_none_or(|lights| lights.children().next().is_none());
-        let black = root.fields().all(|(key, _)| key.text() != "background") || scene.background.is_black();
+        let black = scene.background.is_black();
         let is_wrong = reader.sink.diagnostics.iter().any(|fault| fault.path.starts_with("background"));
         // What the materials of a mesh's own file are, whoever reads that file says.
         let may_shine = |object: &Spanned<Object>| shines(&object.value) || object.value.has_materials_of_file();

@@ -1,5 +1,4 @@
-//! Other files in a scene: libraries of values, textures, materials and cameras (`include`), and scenes among its
-//! objects (`Include`).
+//! Other files in a scene: libraries ([`super::library`]), and scenes among its objects (`Include`).
 
 use super::check::ROOT;
 use super::materials::Materials;
@@ -32,16 +31,31 @@ pub(crate) struct GivenVars(pub Vec<(Spanned<Arc<str>>, Value)>);
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(crate) struct GivenMaterials(pub Vec<(Spanned<Arc<str>>, MaterialRef)>);
 
-/// What is taken of a file by `include`: nothing else of it is read.
-const OF_LIBRARY: &[&str] = &["version", "include", "vars", "textures", "materials", "cameras", "objects", "lights"];
-/// What is taken by `Include`.
-const OF_SCENE: &[&str] = &["version", "include", "vars", "textures", "materials", "objects", "lights"];
+/// What is taken of a file: nothing else of it is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Taken {
+    /// By `include`, first.
+    Vars,
+    /// By `include`, when all `vars` are known.
+    Names,
+    /// By `Include`.
+    Scene,
+}
+
+impl Taken {
+    fn fields(self) -> &'static [&'static str] {
+        match self {
+            Taken::Vars => &["version", "include", "vars"],
+            Taken::Names => &["version", "include", "textures", "materials", "cameras"],
+            Taken::Scene => &["version", "include", "vars", "textures", "materials", "objects", "lights"],
+        }
+    }
+}
 
 /// A file that is being read.
 #[derive(Debug)]
 pub(super) struct Open {
-    /// The fields of its scene that are taken.
-    taken: &'static [&'static str],
+    pub taken: Taken,
     /// Where its tree begins.
     root: u32,
     pub name: String,
@@ -54,17 +68,18 @@ impl Open {
     pub fn labelled(&self, fault: Diagnostic) -> Diagnostic {
         fault.label(self.from, format!("{} is included here", self.name))
     }
+
+    /// Where the file is named, and its name.
+    pub fn from(&self) -> (Span, String) {
+        (self.from, self.name.clone())
+    }
 }
 
 impl Words for Includes {
     const TYPE: Type = Type::List(&Type::File);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        let read = reader.items(item, at, |reader, name| {
-            let Some(text) = reader.text(name, at) else { return };
-            let Some((file, root)) = reader.open(name, &text) else { return };
-            reader.library(name, file, root);
-        });
+        let read = reader.libraries(item, at);
         // Names may be missing that they would have brought.
         reader.materials.damaged |= read.is_none();
         reader.named.damaged |= read.is_none();
@@ -137,7 +152,7 @@ impl Reader<'_> {
     }
 
     /// The tree of a file that an item names; what is wrong with it is reported.
-    fn open<'t, 's>(&mut self, name: Item<'t, 's>, text: &str) -> Option<(&'t Root, Item<'t, 's>)> {
+    pub(super) fn open<'t, 's>(&mut self, name: Item<'t, 's>, text: &str) -> Option<(&'t Root, Item<'t, 's>)> {
         // Names may be missing that it would have brought.
         let opened = self.opened(name, text);
         self.materials.damaged |= opened.is_none();
@@ -203,11 +218,11 @@ impl Reader<'_> {
     }
 
     /// Reads a file that is open, with paths of its own in messages.
-    fn within<T>(
+    pub(super) fn within<T>(
         &mut self,
         name: Item<'_, '_>,
         file: &Root,
-        taken: &'static [&'static str],
+        taken: Taken,
         read: impl FnOnce(&mut Self) -> T,
     ) -> T {
         let path = std::mem::take(&mut self.path);
@@ -220,35 +235,12 @@ impl Reader<'_> {
 
     /// Leaves out the fields of an included scene that are not taken: its background's picture is not looked at.
     pub(super) fn leave_out_untaken(&self, fields: &mut super::Fields<'_, '_>) {
-        let Some(open) = self.open.last().filter(|_| fields.def.name == Scene::DEF.name) else { return };
+        let Some(open) = self.open.last() else { return };
         for (field, slot) in fields.def.fields.iter().zip(&mut fields.slots) {
-            if !open.taken.contains(&field.name) {
+            if !open.taken.fields().contains(&field.name) {
                 *slot = NOWHERE;
             }
         }
-    }
-
-    /// Takes values, textures, materials and cameras of a file.
-    fn library(&mut self, name: Item<'_, '_>, file: &Root, root: Item<'_, '_>) {
-        let objects = root
-            .fields()
-            .find(|(key, value)| matches!(&*key.text(), "objects" | "lights") && value.children().next().is_some());
-        if let Some((key, _)) = objects {
-            let message = format!("an included file has `{}`, which are not taken", key.text());
-            let fault = Diagnostic::error(codes::INCLUDE, name.span(), message)
-                .expected("a file with `vars`, `textures`, `materials` and `cameras`")
-                .hint(format!("for its objects write Include(file: {}) among the objects", shortened(name.lexeme())))
-                .label(key.span(), "they are here");
-            // What it would have brought is missing for that reason.
-            (self.materials.damaged, self.cameras.damaged) = (true, true);
-            (self.named.damaged, self.vars.damaged) = (true, true);
-            return self.report(fault);
-        }
-        self.within(name, file, OF_LIBRARY, |reader| {
-            if !super::check::newer_version(root, reader.sink) {
-                Scene::read(reader, root, &ROOT);
-            }
-        });
     }
 
     /// Reads an `Include`: the objects and lights of another scene, with names of their own.
@@ -262,7 +254,7 @@ impl Reader<'_> {
         let named = std::mem::replace(&mut self.named, textures::Scope::of_file(&file.name));
         let given = words.vars.0.iter().map(|(name, value)| (Arc::clone(&name.value), value.clone())).collect();
         let vars = std::mem::replace(&mut self.vars, vars::Table::with(given));
-        let scene = self.within(name, file, OF_SCENE, |reader| {
+        let scene = self.within(name, file, Taken::Scene, |reader| {
             if super::check::newer_version(root, reader.sink) {
                 return None;
             }

@@ -12,6 +12,8 @@ mod elsewhere;
 mod everyday;
 mod hints;
 mod include;
+mod library;
+mod listed;
 mod marks;
 mod materials;
 mod nameless;
@@ -95,6 +97,7 @@ pub(crate) struct Reader<'r> {
     indices: Vec<(Arc<str>, u32)>,
     /// Included files that are being read, one within the other.
     open: Vec<include::Open>,
+    libraries: library::Libraries,
     /// The number of the first source that is an included file.
     first_included: u32,
     /// Groups that are being read, one within the other.
@@ -178,6 +181,7 @@ impl<'r> Reader<'r> {
             typed: NOWHERE,
             indices: Vec::new(),
             open: Vec::new(),
+            libraries: library::Libraries::default(),
             first_included: u32::MAX,
             groups: 0,
             textures: Nested::default(),
@@ -218,6 +222,8 @@ impl<'r> Reader<'r> {
                 return;
             }
             diagnostic = self.open.iter().rev().fold(diagnostic, |fault, open| open.labelled(fault));
+        } else {
+            diagnostic = self.libraries.labelled(diagnostic);
         }
         self.sink.push(diagnostic);
     }
@@ -319,6 +325,7 @@ impl<'r> Reader<'r> {
                 }
             }
         }
+        self.fields_beneath(item, &mut fields, &mut others);
         // What a mistyped name stands for is read as well, so that what is wrong with it is told in the same run.
         for (meant, value) in others.mistyped {
             let slot = def.fields.iter().position(|field| field.name == meant);
@@ -329,7 +336,7 @@ impl<'r> Reader<'r> {
         if !item.is_damaged() {
             self.missing_fields(item, def, &fields, &others.excused);
         }
-        self.leave_out_untaken(&mut fields);
+        self.begin_scene(&mut fields);
         Some(fields)
     }
 
@@ -401,7 +408,10 @@ impl<'r> Reader<'r> {
     /// Reads the next field of the schema.
     pub fn field<T: Words>(&mut self, fields: &mut Fields<'_, '_>, default: Option<fn() -> T>) -> Option<T> {
         let at = fields.def.fields.get(fields.next)?;
-        let item = fields.get(fields.next);
+        let mut item = fields.get(fields.next);
+        if self.libraries.have_settings() {
+            item = self.with_settings(fields, at, item);
+        }
         fields.next += 1;
         match item {
             Some(item) if item.kind() == Kind::Broken => default.map(|default| default()),
@@ -502,6 +512,9 @@ impl<'r> Reader<'r> {
             self.report(fault);
             return None;
         }
+        if item.kind() == Kind::Map && !header && self.list_by_names(item, at) {
+            return None;
+        }
         let of_fields = match item.name() {
             None => item.kind() == Kind::Map,
             Some(name) => item.kind() == Kind::Struct && name.eq_ignore_ascii_case("transform"),
@@ -513,7 +526,7 @@ impl<'r> Reader<'r> {
         let edit = match item.kind() {
             _ if header => (!lexeme.starts_with("[[")).then(|| format!("[{lexeme}]")),
             Kind::Struct | Kind::Map | Kind::Tuple if item.name().is_some() || item.kind() == Kind::Map => {
-                transform().or_else(|| Some(format!("[{lexeme}]")))
+                transform().or_else(|| (!listed::is_of_points(at)).then(|| format!("[{lexeme}]")))
             }
             Kind::Tuple => lexeme.get(1..lexeme.len() - 1).map(|inner| format!("[{inner}]")),
             Kind::Text if matches!(at.kind, Type::List(Type::File)) => Some(format!("[{lexeme}]")),
@@ -521,7 +534,9 @@ impl<'r> Reader<'r> {
         };
         // A table under a TOML header is not between brackets that could be edited.
         let edit = edit.filter(|_| item.syntax() == Syntax::Ron || lexeme.starts_with(['{', '[', '"']));
-        self.wrong_kind(item, at.noun, "a list: [a, b, c]", edit)
+        let (expected, all) = listed::list_of_words(at, item);
+        let edit = edit.or_else(|| all.filter(|_| matches!(item.lexeme(), "true" | "True" | "TRUE")));
+        self.wrong_kind(item, at.noun, &expected, edit)
     }
 
     /// Reports a value of the wrong kind for a field.

@@ -58,7 +58,10 @@ impl Reader<'_> {
     /// Reports what stands in place of a struct and can have no fields.
     pub(super) fn not_a_struct<T>(&mut self, item: Item<'_, '_>, def: &'static StructDef) -> Option<T> {
         let header = item.kind() == Kind::List && item.lexeme().starts_with("[[");
-        let edit = header.then(|| item.lexeme().replace("[[", "[").replace("]]", "]"));
+        let header_edit = || header.then(|| item.lexeme().replace("[[", "[").replace("]]", "]"));
+        // Nothing, for a thing that needs no field.
+        let is_bare = item.is_null() && def.fields.iter().all(|field| field.default.is_some());
+        let edit = header_edit().or_else(|| is_bare.then(|| "{}".to_owned()));
         let expected = match item.syntax() {
             _ if header => "a table".to_owned(),
             Syntax::Ron => format!("{}({})", def.name, field_words(def)),

@@ -389,6 +389,17 @@ const BACKGROUNDS: Hints = &[
     ),
 ];
 
+const STEREO: Hints = &[
+    (
+        &["sidebyside", "sbs", "leftright", "horizontal", "parallel", "stereoscopic", "true", "on"],
+        "two pictures side by side are `Stereo(separation: 0.064)`",
+    ),
+    (
+        &["topbottom", "overunder", "vertical", "tab", "above"],
+        "two pictures above each other are `Stereo(separation: 0.064, layout: TopBottom)`",
+    ),
+];
+
 /// What is said of a word that is no kind of this one.
 pub(super) fn elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
     let plain = squeezed(name);
@@ -398,6 +409,7 @@ pub(super) fn elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static st
         "material" => AMONG_MATERIALS,
         "background" => BACKGROUNDS,
         "tone map" => TONE_MAPS,
+        "stereo" => STEREO,
         _ => return None,
     };
     let found = rows.iter().find(|(names, _)| names.contains(&&*plain)).map(|(_, way)| *way);

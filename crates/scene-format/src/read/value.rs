@@ -267,7 +267,8 @@ impl Reader<'_> {
     /// Whether a text without `=` before it is an expression of names that are known: `2*r`.
     pub(super) fn is_reckoned(&self, text: &str) -> bool {
         let body = text.trim_start_matches(['=', ' ']);
-        let value = expression::evaluate(body, &mut |name| match self.knows_var(name) {
+        let known = |name: &str| self.knows_var(name) || matches!(name, "time" | "frame");
+        let value = expression::evaluate(body, &mut |name| match known(name) {
             true => Named::Value(Value::Number(1.0)),
             false => Named::Unknown(Vec::new()),
         });
@@ -323,6 +324,17 @@ impl Reader<'_> {
         if matches!(at.kind, Type::Optional(Type::Number)) && (value == 0.0 || value == f64::INFINITY) {
             fault.hint = format!("{} turns it off", none(item.syntax()));
             fault.edit = Some(Edit { span: item.span(), replacement: none(item.syntax()).to_owned() });
+        }
+        if at.name == "fov" && (180.0..=240.0).contains(&value) && range.high == 180.0 {
+            let way = format!(
+                "so much is seen by a fisheye, which has its own: projection = {{ Fisheye = {{ fov = {value} }} }}"
+            );
+            fault.hint = match item.syntax() {
+                Syntax::Ron => {
+                    format!("so much is seen by a fisheye, which has its own: projection: Fisheye(fov: {value})")
+                }
+                syntax => syntax.of_toml(way).into_owned(),
+            };
         }
         self.report(fault);
         None

@@ -11,7 +11,7 @@ use crate::schema::{FieldDef, Type};
 use crate::suggest;
 use crate::tree::{Item, Kind};
 use crate::words::Words;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -53,14 +53,16 @@ pub(super) struct Table {
     frames: Vec<usize>,
     /// So many are being reckoned, each for the one before.
     open: usize,
-    /// That one takes radians for degrees was told.
-    told_of_radians: bool,
+    /// Where one takes radians for degrees, which was told.
+    told_of_radians: BTreeSet<Span>,
     /// Seeds that look like a range have been told.
     told_of_seeds: bool,
     /// That they were too many was told.
     waits_too_long: bool,
     /// Some could not be read: names may be missing.
     pub damaged: bool,
+    /// Where those of the scene stand that have been read before their turn.
+    known: u32,
     /// Values that are given for names of an included scene, and whether it has these.
     given: BTreeMap<Arc<str>, (Value, bool)>,
 }
@@ -137,8 +139,18 @@ fn within(item: Item<'_, '_>, text: &str, at: &Range<usize>) -> Span {
 }
 
 impl Reader<'_> {
+    /// Those of a scene that includes files, before anything of these is read that may use them.
+    pub(super) fn vars_before(&mut self, item: Item<'_, '_>) {
+        self.vars.damaged |= item.is_damaged();
+        self.vars.known = item.index() as u32;
+        self.named_values(item);
+    }
+
     /// `{ "name": value }`
     fn vars(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Vars> {
+        if self.vars.known == item.index() as u32 {
+            return Some(Vars);
+        }
         match item.kind() {
             Kind::Map => {}
             Kind::Tuple if item.name().is_none() && item.children().next().is_none() => return Some(Vars),
@@ -365,13 +377,12 @@ impl Reader<'_> {
         Some(None)
     }
 
-    /// Warns of `pi` in what counts in degrees, once in a scene: what is repeated is doubtful each time.
+    /// Warns of `pi` in what counts in degrees, once at each place: what is repeated is doubtful each time.
     fn warn_of_radians(&mut self, item: Item<'_, '_>, text: &str) {
-        if self.vars.told_of_radians {
+        let Some((at, degrees)) = in_radians(&text[1..]) else { return };
+        if !self.vars.told_of_radians.insert(item.span()) {
             return;
         }
-        let Some((at, degrees)) = in_radians(&text[1..]) else { return };
-        self.vars.told_of_radians = true;
         let message = format!("`{}` has an angle in radians", shortened(&text[1..][at.clone()]));
         let warning = Diagnostic::warning(codes::OTHER_SCALE, within(item, text, &at), message);
         let hint = format!("write `{}`: a half turn is 180", hinted(&degrees));

@@ -3,6 +3,7 @@
 use super::{Lines, Severity, lines};
 use crate::codes::find;
 use crate::diagnostic::{Diagnostic, Source, Span};
+use crate::written::in_their_syntax;
 use serde_json::{Value, json};
 
 /// What was found in any number of scenes; it becomes one document.
@@ -17,7 +18,7 @@ impl Sarif {
     /// Adds diagnostics; `sources` are the texts that their spans point into.
     pub fn add(&mut self, diagnostics: &[Diagnostic], sources: &[Source]) {
         let lines = lines(sources);
-        for diagnostic in diagnostics {
+        for diagnostic in &in_their_syntax(diagnostics, sources) {
             let rule = self.rule(diagnostic);
             self.results.push(result(diagnostic, &lines, rule));
         }

@@ -251,8 +251,11 @@ impl<'p> Parser<'p> {
             self.sink.push(Diagnostic { edit: None, hint, ..fault });
             return self.builder.leaf(Kind::Broken, start, self.at);
         }
+        // By their names things are known without the map that they stand in.
+        let of_map = ["materials.", "textures.", "cameras."].iter().find_map(|map| text.strip_prefix(map));
+        let meant = of_map.filter(|name| expression::is_name(name)).unwrap_or(text);
         // Between quotes a backslash would begin a sign.
-        let slashed = text.replace('\\', "/");
+        let slashed = meant.replace('\\', "/");
         let found = self.span(start, self.at);
         let mut fault =
             Diagnostic::error(codes::WORD_NOT_QUOTED, found, format!("the text `{text}` is not between quotes"))

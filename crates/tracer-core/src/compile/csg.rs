@@ -78,9 +78,6 @@ pub struct WallOf {
     pub shines: bool,
 }
 
-/// Where the parts of a solid are, and which of them are moved.
-type Places<'a> = (&'a dyn Fn(usize, &DAffine3) -> DAffine3, &'a dyn Fn(usize) -> bool);
-
 /// Lower and upper corner.
 type Box3 = [DVec3; 2];
 
@@ -516,17 +513,17 @@ impl SolidObject {
                 translation: frame.point(map.translation),
             };
             let first = [solids.parts.len(), solids.steps.len(), solids.operands.len()].map(|n| n as u32);
-            for operand in &self.operands {
+            for (number, operand) in self.operands.iter().enumerate() {
                 let mut coordinates = 0;
                 let whole = *map * operand.moved;
                 if let Some(written) = written.as_mut().filter(|_| whole != DAffine3::IDENTITY) {
                     coordinates = written.len() as u32;
                     written.push(whole);
                 }
-                let placement = scaled(whole * operand.local);
+                let (unit, placement) = self.moved_operand(copy, number, map);
                 solids.operands.push(Operand {
-                    unit: operand.unit,
-                    placement,
+                    unit,
+                    placement: scaled(placement),
                     material: operand.material,
                     light: NONE,
                     coordinates,
@@ -537,7 +534,7 @@ impl SolidObject {
                 whole.translation += self.moved.of(copy, k);
                 scaled(whole)
             };
-            self.steps(&self.node, (&placed, &|k| self.moved.of(copy, k) != DVec3::ZERO), first[2], solids);
+            self.steps(&self.node, &placed, first[2], solids);
             let count = |list: usize, first: u32| [first, list as u32 - first];
             let [low, high] = bounds(&self.node, &self.operands, map);
             let most = self.moved.most(copy);
@@ -548,7 +545,7 @@ impl SolidObject {
                 operands: count(solids.operands.len(), first[2]),
                 bounds: [low.min(high), low.max(high)],
             };
-            self.shine(frame, map, (&solid, shapes.len() as u32), &mut solids.operands, lit);
+            self.shine(frame, (copy, map), (&solid, shapes.len() as u32), &mut solids.operands, lit);
             let unit = UnitShape::Solid(solid);
             let material = self.operands.first().map_or(0, |operand| operand.material);
             let (placement, object) = (DAffine3::IDENTITY, self.number);
@@ -557,24 +554,22 @@ impl SolidObject {
         }
     }
 
-    /// Adds the parts and steps of a node. `placed`: of a part, from its map in the solid to render space; `is_moved`:
-    /// whether it is another one there.
-    fn steps(&self, node: &Node, (placed, is_moved): Places<'_>, first: u32, solids: &mut Solids) {
+    /// Adds the parts and steps of a node. `placed`: of a part, from its map in the solid to render space.
+    fn steps(&self, node: &Node, placed: &dyn Fn(usize, &DAffine3) -> DAffine3, first: u32, solids: &mut Solids) {
         match node {
             Node::Operand(k) => {
                 let operand = first + *k as u32;
                 let own = self.parts.iter().enumerate().filter(|(_, part)| part.operand == *k);
                 let parts = own.map(|(number, part)| {
                     let PartWritten { surface, map, flipped, joins, .. } = part;
-                    let part = Part::of_surface(surface, &placed(number, map), *flipped, *joins, operand);
-                    if is_moved(number) { part.moved() } else { part }
+                    Part::of_surface(surface, &placed(number, map), *flipped, *joins, operand)
                 });
                 solids.parts.extend(parts);
                 solids.steps.push(Step::Operand(operand));
             }
             Node::Made(operation, nodes) => {
                 for (k, node) in nodes.iter().enumerate() {
-                    self.steps(node, (placed, is_moved), first, solids);
+                    self.steps(node, placed, first, solids);
                     if k > 0 {
                         solids.parts.push(Part::of_operation(*operation));
                         solids.steps.push(Step::Operation(*operation));

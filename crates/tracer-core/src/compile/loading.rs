@@ -10,6 +10,7 @@ use scene_format::desc::{HeightField, MaterialRef};
 use scene_format::diagnostic::{Span, Spanned};
 use scene_format::{Diagnostic, Diagnostics, SceneDesc};
 use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 use tracer_mesh::shapes::{Triangulated, height_field};
@@ -17,8 +18,8 @@ use tracer_mesh::{MeshData, Wanted, mesh_of};
 
 /// The meshes of a scene: its files, what it writes out itself, and the shapes that are made of triangles.
 pub struct Loaded {
-    /// Each file once, then each mesh of the scene itself, then each shape that triangles are made for, then each unit
-    /// shape once.
+    /// Each file once, then each mesh of the scene itself, each shape that triangles are made for and each landscape,
+    /// those that are alike once, then each unit shape once.
     pub(super) files: Vec<Arc<MeshData>>,
     /// Per object of triangles: its file, or `None` where that could not be loaded.
     pub(super) file_of_object: Vec<Option<usize>>,
@@ -113,11 +114,18 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
     diagnostics.extend(as_one(of_materials));
     let made: Vec<_> = made.par_iter().map(|(shape, span)| shape.mesh(*span)).collect();
     let fields = height_fields(desc, sources, &fields, diagnostics);
+    let mut known: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
     let mut written = |results: Vec<Result<MeshData, Box<Diagnostic>>>| -> Vec<Option<usize>> {
         let file_of = |result| match result {
             Ok(data) => {
                 let data: MeshData = data;
                 diagnostics.extend(data.warnings.iter().cloned());
+                // Pawns of a `Repeat` are one mesh, as copies by `placements` are.
+                let alike = known.entry(digest(&data)).or_default();
+                if let Some(&file) = alike.iter().find(|&&file| *files[file] == data) {
+                    return Some(file);
+                }
+                alike.push(files.len());
                 files.push(Arc::new(data));
                 Some(files.len() - 1)
             }
@@ -143,6 +151,15 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
         Geometry::Unit(shape) => shapes.iter().position(|&s| s == shape).map(|k| first_shape + k),
     };
     Loaded { files, file_of_object: geometry_of_object.into_iter().map(of_geometry).collect() }
+}
+
+/// A number that meshes which are alike have in common, and hardly any others.
+fn digest(data: &MeshData) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    data.triangles.hash(&mut hasher);
+    // No two positions that are alike differ in the sign of a zero only: the same steps made them.
+    data.positions.iter().flatten().for_each(|x| hasher.write_u64(x.to_bits()));
+    hasher.finish()
 }
 
 /// What is told of the materials of several mesh files, as one warning: a model of a hundred files has one exporter to

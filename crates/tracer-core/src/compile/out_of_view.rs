@@ -47,7 +47,7 @@ pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
         let message = "nothing is in view: all that the scene has lies beside or behind the view";
         Diagnostic::warning(codes::NOTHING_IN_VIEW, desc.camera.look_at.span, message)
             .expected("objects between the camera and where it looks")
-            .hint("set `look_at` to the middle of an object; `tracer info` tells where the objects are")
+            .hint("set `look_at` to the middle of an object; `tracer info --objects` tells where the objects are")
     })
 }
 

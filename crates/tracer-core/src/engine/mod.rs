@@ -152,6 +152,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     film.level = options.level.unwrap_or_else(Level::best);
     film.threads = if options.threads == 0 { available_threads() } else { options.threads };
     film.statistics = options.statistics.then(Default::default);
+    film.of_moments = scene.moves();
     if film.is_begun() && film.unfinished.is_none() && film.whole >= samples {
         return Ok(film);
     }
@@ -159,7 +160,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     let pool = Pool::new(film.threads, options.statistics);
     let engine = Engine::new(scene, &kernels);
     let before = Counted { counters: film.counters, costs: film.costs, ..Counted::default() };
-    let goals = Goals::new(scene, options);
+    let goals = Goals::new(scene, options, &film);
     let plan = plan(options);
     let mut work =
         Work { options, observer, pool: &pool, samples, plan, moves: scene.moves(), before, goals, keeper: None };
@@ -314,17 +315,20 @@ fn has_places(film: &Film, painter: &Painter<'_>) -> Result<(), Misfit> {
 struct Goals {
     /// The relative noise that is asked for.
     noise: Option<f64>,
+    /// It is looked at from so many samples of each pixel on.
+    first: u32,
     /// When it ends at the latest.
     until: Option<Instant>,
 }
 
 impl Goals {
-    fn new(scene: &tracer_kernels::scene::Scene, options: &RenderOptions) -> Self {
+    fn new(scene: &tracer_kernels::scene::Scene, options: &RenderOptions, film: &Film) -> Self {
         let of_scene = options.part.is_none() && plan(options).is_none();
         // A time that no clock can hold is none.
         let time = scene.time.filter(|_| of_scene).and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         Goals {
             noise: options.noise.filter(|_| plan(options).is_none()).or(scene.noise.filter(|_| of_scene)),
+            first: if film.of_moments { LEAST_MOMENTS } else { 0 },
             until: options.until.or_else(|| Instant::now().checked_add(time?)),
         }
     }
@@ -332,10 +336,14 @@ impl Goals {
     /// Whether the noise is no more than asked for.
     fn are_met(&self, film: &Film) -> bool {
         film.unfinished.is_none()
+            && film.whole >= self.first
             && is_looked_at(film.whole)
             && self.noise.is_some_and(|goal| film.relative_noise() <= goal)
     }
 }
+
+/// So many moments at least tell of what is there for a short time only, which all pixels see or none.
+const LEAST_MOMENTS: u32 = 64;
 
 /// Notes on the film what was counted, beside what it had before.
 fn note(film: &mut Film, before: &Counted, now: &Counted) {

@@ -22,7 +22,8 @@
 //!
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
 //! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
-//! third of such n, by Gauss. Below [`FEW`], the noise is never told as less than that of independent samples.
+//! third of such n, by Gauss. Below [`FEW`], the noise is never told as less than that of independent samples. Nor is
+//! it where pixels err together since they see the same moments: what is there for a thirtieth of a time all may miss.
 
 use super::{Film, PIXELS, Tile, luminance};
 use rayon::prelude::*;
@@ -196,8 +197,9 @@ impl Film {
     }
 
     /// Root mean square over the pixels of their standard error, relative to the mean luminance: the noise of the
-    /// picture as one number. It is seen from how much pictures of other samples differ; of parts that were merged it
-    /// is what independent samples would have, which is more. Zero where no pixel has two samples: nobody can tell.
+    /// picture as one number. It is seen from how much pictures of other samples differ; of parts that were merged, and
+    /// where something moves while the shutter is open, it is what independent samples would have, which is more. Zero
+    /// where no pixel has two samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
         let mean = self.pixels().map(|(x, y)| luminance(self.radiance(x, y)) / self.unit).sum::<f64>() / self.count();
@@ -206,7 +208,7 @@ impl Film {
             self.pixels().map(variance).sum::<f64>() / self.count()
         };
         let variance = match self.seen_variance() {
-            Some((seen, pixels)) if pixels >= FEW => seen,
+            Some((seen, pixels)) if pixels >= FEW && !self.of_moments => seen,
             Some((seen, _)) => seen.max(independent()),
             None => independent(),
         };

@@ -4,11 +4,11 @@
 use crate::support::compiled;
 use crate::support::describe::*;
 use crate::support::meshes::{cube, deep_picture, icosphere, picture, square, torus};
-use scene_format::SceneDesc;
 use scene_format::desc::{
     Acceleration, Caustics, Instances, Integrator, MaterialRef, Object, Part, PixelFilter, Reuse, Shading, Stereo,
     StereoLayout, TextureFilter, TextureWrap, Transform,
 };
+use scene_format::{SceneDesc, Syntax, load_str};
 use std::ops::ControlFlow;
 use std::path::Path;
 use tracer_core::Level;
@@ -455,4 +455,37 @@ fn an_early_end_is_the_picture_of_fewer_samples() {
             assert!(rendered(&scene, &options) == seen, "{name}: {samples} samples");
         }
     }
+}
+
+/// Shapes of a `Repeat` that are alike are one mesh, as copies by `placements` are, whatever their materials; what
+/// differs is not.
+#[test]
+fn shapes_that_are_alike_are_one_mesh() {
+    let scene = |objects: &str| {
+        let text = format!(
+            "Scene(image: Image(width: 16, height: 16), camera: Camera(position: (0, 6, 14), look_at: (0, 0, 0)), \
+             lights: [SphereLight(center: (4, 8, 6), radius: 1, power: 800)], objects: [{objects}])"
+        );
+        let read = load_str("s.ron", &text, Syntax::Ron, Path::new(""), &[]);
+        compiled(&read.unwrap_or_else(|error| panic!("{error}\n{text}")).scene)
+    };
+    // So many triangles are not flattened: 300,000 in all.
+    let vase = "Lathe(profile: [(0, 0), (1, 0), (0.9, 0.3), (0.4, 0.5), (0.3, 1.5), (0.6, 2), (0, 2.6)], \
+                segments: 2048";
+    let placed = |k: usize| format!("[Translate(({}, 0, {}))]", 2 * (k % 4), k / 4);
+    let places: Vec<String> = (0..16).map(placed).collect();
+    let copies = scene(&format!("{vase}, placements: [{}])", places.join(", ")));
+    let repeated = scene(&format!(
+        "Repeat(count: 16, items: [{vase}, transform: [Translate((\"=2 * (i % 4)\", 0, \"=floor(i / 4)\"))])])"
+    ));
+    let counts =
+        |scene: &Scene| (scene.statistics().meshes, scene.statistics().instances, scene.statistics().triangles);
+    assert_eq!(counts(&repeated), counts(&copies));
+    assert_eq!(counts(&repeated), (1, 16, 13 * 4096));
+    let picture = |scene: &Scene| bits(&tracer_core::render(scene, &options(), &Unobserved));
+    assert_eq!(picture(&repeated), picture(&copies));
+    let other = vase.replace("0.6, 2", "\"=0.6 + i / 100\", 2");
+    let meshes = scene(&format!("Repeat(count: 3, items: [{other}), {vase})])")).statistics().meshes;
+    // The first of the others is the vase itself.
+    assert_eq!(meshes, 3);
 }

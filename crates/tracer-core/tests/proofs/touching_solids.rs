@@ -4,6 +4,7 @@
 use crate::support::{compiled, film};
 use scene_format::{SceneDesc, Syntax, load_str};
 use std::path::Path;
+use tracer_reference::{Reference, Smoothing};
 
 fn described(camera: &str, objects: &str) -> SceneDesc {
     let text = format!(
@@ -20,6 +21,14 @@ fn range(desc: &SceneDesc) -> [f64; 2] {
     pixels.fold([0.0, f64::INFINITY], |[most, least], x| [f64::max(most, x), least.min(x)])
 }
 
+/// The same of every fourth pixel as the reference sees it.
+fn range_of_reference(desc: &SceneDesc) -> [f64; 2] {
+    let scene = compiled(desc);
+    let reference = Reference::new(&scene, Smoothing::Hanika);
+    let pixels = (0..16 * 16).map(|k| reference.pixel([2 * (k % 16), 2 * (k / 16)], 8, 1)[0].x);
+    pixels.fold([0.0, f64::INFINITY], |[most, least], x| [f64::max(most, x), least.min(x)])
+}
+
 /// A tumbler on a table, and other bodies.
 const BODIES: [&str; 4] = [
     "Difference(material: @, objects: [Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 0.5), \
@@ -30,9 +39,8 @@ const BODIES: [&str; 4] = [
     "Intersection(material: @, objects: [Sphere(center: (0, 0, 0), radius: 0.7), Plane(normal: (0, -1, 0))])",
 ];
 
-/// A lamp under an opaque floor shines through nothing that stands on it.
-#[test]
-fn nothing_gets_between_a_solid_and_what_it_stands_on() {
+/// Each of them of each material on each kind of floor, over a lamp.
+fn over_a_lamp() -> impl Iterator<Item = SceneDesc> {
     let lamp = "Sphere(center: (0, -1.5, 0), radius: 0.4, material: Emissive(radiance: 50))";
     let floors = [
         "Rectangle(size: 40, material: Diffuse(albedo: 0.7))",
@@ -41,15 +49,27 @@ fn nothing_gets_between_a_solid_and_what_it_stands_on() {
         "Cylinder(from: (0, -0.5, 0), to: (0, 0, 0), radius: 30, material: Diffuse(albedo: 0.7))",
         "Difference(objects: [Box(center: (0, -0.5, 0), size: (30, 1, 30)), Box(center: (9, 0, 0), size: 1)])",
     ];
-    for body in BODIES {
-        for material in ["Transparent(ior: 1.5)", "Diffuse(albedo: 0.6)", "Mirror(reflectance: 0.9)"] {
-            for floor in floors {
-                let objects = format!("{floor}, {}, {lamp}", body.replace('@', material));
-                let desc = described("position: (0.5, 2.2, 4), look_at: (0, 0.3, 0), fov: 30", &objects);
-                let [most, _] = range(&desc);
-                assert_eq!(most, 0.0, "{objects}");
-            }
-        }
+    let materials = ["Transparent(ior: 1.5)", "Diffuse(albedo: 0.6)", "Mirror(reflectance: 0.9)"];
+    let all = BODIES.into_iter().flat_map(move |body| materials.map(|material| body.replace('@', material)));
+    all.flat_map(move |body| {
+        let camera = "position: (0.5, 2.2, 4), look_at: (0, 0.3, 0), fov: 30";
+        floors.map(|floor| described(camera, &format!("{floor}, {body}, {lamp}")))
+    })
+}
+
+/// A lamp under an opaque floor shines through nothing that stands on it.
+#[test]
+fn nothing_gets_between_a_solid_and_what_it_stands_on() {
+    for desc in over_a_lamp() {
+        assert_eq!(range(&desc)[0], 0.0, "{:?}", desc.objects);
+    }
+}
+
+/// Nor does it for the reference, which has no parts of solids but asks what is inside of each shape.
+#[test]
+fn nothing_gets_between_them_for_the_reference() {
+    for desc in over_a_lamp() {
+        assert_eq!(range_of_reference(&desc)[0], 0.0, "{:?}", desc.objects);
     }
 }
 
@@ -82,8 +102,10 @@ fn what_lies_flush_in_a_wall_is_seen() {
             format!("Polygon(points: [(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)], material: {lamp})"),
         ] {
             let camera = "position: (0, 3, 0.5), look_at: (0, 0, 0), fov: 20";
-            let [most, least] = range(&described(camera, &format!("{wall}, {flush}")));
-            assert!((most - 3.0).abs() < 1e-5 && (least - 3.0).abs() < 1e-5, "{wall} {flush}: {least} to {most}");
+            let desc = described(camera, &format!("{wall}, {flush}"));
+            for [most, least] in [range(&desc), range_of_reference(&desc)] {
+                assert!((most - 3.0).abs() < 1e-5 && (least - 3.0).abs() < 1e-5, "{wall} {flush}: {least} to {most}");
+            }
         }
     }
 }

@@ -383,6 +383,61 @@ fn words_too_many_have_a_tip() {
     assert!(help.contains("--camera") && help.contains("--frame <N>"), "{help}");
 }
 
+/// Where every object is, in the scene and in the picture.
+#[test]
+fn info_tells_where_objects_are() {
+    let sandbox = Sandbox::new();
+    let camera = "position: (0, 0, 10), look_at: (0, 0, 0), fov: 90";
+    let balls = "Sphere(center: (0, 0, 0), radius: 1, name: \"ball\"), Sphere(center: (0, 0, 12), radius: 1), \
+                 Box(center: (-30, 0, 0), size: 2), Box(center: (0, 30, 0), size: 2), \
+                 Box(size: 1, placements: Grid(count: (2, 1, 2), spacing: (2, 2, 2))), Plane(point: (0, -1, 0))";
+    let scene = |camera: &str| {
+        format!(
+            "Scene(image: Image(width: 100, height: 100), camera: Camera({camera}), objects: [{balls}], \
+             lights: [SphereLight(center: (0, -20, 0), radius: 1, power: 100)])"
+        )
+    };
+    sandbox.write("a.ron", scene(camera));
+    let told = sandbox.run(&["info", "a.ron", "--objects"]).ends(0).out_text();
+    let expected = [
+        "ball                       (-1, -1, -1) to (1, 1, 1)          pixels 44,44 to 55,55",
+        "objects[1] Sphere          (-1, -1, 11) to (1, 1, 13)         not in view: behind the camera",
+        "objects[2] Box             (-31, -1, -1) to (-29, 1, 1)       not in view: to the left",
+        "objects[3] Box             (-1, 29, -1) to (1, 31, 1)         not in view: above",
+        "objects[4] Box         x4  (-1.5, -0.5, -1.5) to (1.5, 0.5, 1.5)  pixels 41,47 to 58,52",
+    ];
+    let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for line in expected {
+        assert!(squeezed(&told).contains(&squeezed(line)), "{line}\n{told}");
+    }
+    assert!(told.contains("objects[5] Plane") && told.contains("without an end\n"), "{told}");
+    assert!(told.contains("lights[0] SphereLight") && told.ends_with("not in view: below\n"), "{told}");
+    let whole = sandbox.run(&["info", "a.ron"]).ends(0).out_text();
+    assert!(whole.contains("no view of 3 of 6: objects[1] Sphere, objects[2] Box, objects[3] Box ("), "{whole}");
+    let json: Value =
+        serde_json::from_str(&sandbox.run(&["info", "a.ron", "--objects", "--json"]).ends(0).out_text()).expect("JSON");
+    assert_eq!(json[0]["object"], "ball");
+    assert_eq!(json[0]["bounds"]["max"], serde_json::json!([1.0, 1.0, 1.0]));
+    assert_eq!(json[0]["seen"], serde_json::json!({"left": 44, "top": 44, "right": 56, "bottom": 56}));
+    assert_eq!([&json[1]["seen"], &json[5]["bounds"]], [&Value::from("behind"), &Value::Null]);
+    // From within a ball, with two eyes, and all around.
+    for (camera, seen) in [
+        ("position: (0.5, 0, 0), look_at: (9, 0, 0)".to_owned(), "in view, and around the camera"),
+        (
+            "position: (0, 0, 10), look_at: (0, 0, 0), projection: Orthographic(height: 40)".to_owned(),
+            "pixels 47,47 to 52,52",
+        ),
+        ("position: (0, 0, 10), look_at: (0, 0, 0), projection: Panorama".to_owned(), "about pixel 50,50"),
+        ("position: (0, 0, -10), look_at: (0, 0, -20), projection: Fisheye(fov: 90)".to_owned(), "not in view"),
+    ] {
+        sandbox.write("b.ron", scene(&camera));
+        let told = sandbox.run(&["info", "b.ron", "--objects"]).ends(0).out_text();
+        assert!(squeezed(told.lines().next().expect("a line")).ends_with(seen), "{camera}\n{told}");
+    }
+    sandbox.run(&["render", "b.ron", "-o", "b.png", "--samples", "1", "--size", "8x8"]).ends(0);
+    sandbox.run(&["info", "b.png", "--objects"]).ends(2).says(&["is a picture; --objects"]);
+}
+
 /// What is told is right in its numbers.
 #[test]
 fn small_words_are_right() {

@@ -95,11 +95,10 @@ fn find(table: &ShapeTable, spheres: u32, at: &At, mut lanes: u32) -> Found {
         let mut light = table.light.get(index).copied().unwrap_or(0);
         let on = match row.on_solid(&table.parts, point) {
             None => row.surface(point),
-            Some(OnSolid { operand, outward, moved }) => {
+            Some(OnSolid { operand, outward }) => {
                 let Some(of) = table.operands.get(operand as usize) else { continue };
                 (body, material, light) = (table.first_body + operand, of.material, of.light);
-                let on = of.row.surface(point);
-                OnUnit { n: outward, q: moved.unwrap_or(on.q), ..on }
+                OnUnit { n: outward, ..of.row.surface(point) }
             }
         };
         for axis in 0..3 {

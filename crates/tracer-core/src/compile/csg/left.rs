@@ -104,7 +104,7 @@ impl SolidObject {
             matrix3: map.matrix3 * frame.scale,
             translation: frame.point(map.translation),
         };
-        self.steps(node, (&placed, &|_| false), 0, &mut made);
+        self.steps(node, &placed, 0, &mut made);
         let parts = [0, made.parts.len() as u32];
         let solid = Solid { parts, steps: [0; 2], operands: [0; 2], bounds: [low, high].map(|p| frame.point(p)) };
         let row = Row::new(&UnitShape::Solid(solid), &DAffine3::IDENTITY);

@@ -56,16 +56,17 @@ impl SolidObject {
     pub(super) fn shine(
         &self,
         frame: &Frame,
-        map: &DAffine3,
+        (copy, map): (u32, &DAffine3),
         (solid, shape): (&Solid, u32),
         all: &mut [Operand],
         lit: &mut Lit<'_>,
     ) {
-        for (index, operand) in (solid.operands[0]..).zip(&self.operands) {
+        for (number, operand) in self.operands.iter().enumerate() {
             let Some(emissive) = &operand.emissive else { continue };
+            let index = solid.operands[0] + number as u32;
             // What is left of it lies in its own box, and in that of the solid.
-            let whole = *map * operand.moved * operand.local;
-            let [low, high] = if operand.unit.is_endless() { behind(&whole) } else { operand.unit.bounds(&whole) };
+            let (unit, whole) = self.moved_operand(copy, number, map);
+            let [low, high] = if unit.is_endless() { behind(&whole) } else { unit.bounds(&whole) };
             let [a, b] = [low, high].map(|corner| frame.point(corner));
             let [low, high] = [a.min(b).max(solid.bounds[0]), a.max(b).min(solid.bounds[1])];
             if !low.cmple(high).all() {

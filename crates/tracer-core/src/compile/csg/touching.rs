@@ -5,7 +5,7 @@
 //! where the two bodies touch, into the other one, so that nothing gets between them; where both face the same way, as
 //! a lamp or a rug on a wall does, back behind the other, which is seen then.
 
-use super::{DAffine3, DVec3, Node, OperandWritten, PartWritten, SolidObject, Surface};
+use super::{DAffine3, DVec3, Node, OperandWritten, PartWritten, SolidObject, Surface, surfaces};
 use crate::compile::curved::Curved;
 use crate::compile::meshes::Loaded;
 use crate::compile::placed::Placed;
@@ -50,6 +50,48 @@ impl Moved {
         let own = self.0[first..].iter().take_while(|(other, ..)| *other == copy);
         own.fold(DVec3::ZERO, |most, (.., by)| most.max(by.abs()))
     }
+}
+
+impl SolidObject {
+    /// An operand of a copy as its moved walls make it: its shape, and from its object space to the world. `map`: that
+    /// of the copy.
+    pub(super) fn moved_operand(&self, copy: u32, number: usize, map: &DAffine3) -> (UnitShape, DAffine3) {
+        let operand = &self.operands[number];
+        let map = *map * operand.moved * operand.local;
+        let own = self.parts.iter().enumerate().filter(|(_, part)| part.operand == number);
+        let mut further = [DVec3::ZERO; 2];
+        for ((part, _), (_, wall)) in own.zip(surfaces(&operand.unit)) {
+            let by = self.moved.of(copy, part);
+            if by != DVec3::ZERO {
+                // Along an axis, by as much as brings the wall to the plane that is moved along its normal.
+                let out = wall.matrix3.z_axis;
+                let along = by.length_squared() / (map.matrix3 * out).dot(by);
+                further[usize::from(out.element_sum() > 0.0)] += along * out.abs();
+            }
+        }
+        if further == [DVec3::ZERO; 2] { (operand.unit, map) } else { with_ends(&operand.unit, &map, further) }
+    }
+}
+
+/// A shape whose flat ends on the negative and on the positive side of the axes lie that much further out.
+fn with_ends(unit: &UnitShape, map: &DAffine3, [low, high]: [DVec3; 2]) -> (UnitShape, DAffine3) {
+    let half = match unit {
+        UnitShape::Cube => 0.5,
+        UnitShape::Cone { .. } => 1.0,
+        // A plane has one end. Others have no flat ones.
+        _ => return (*unit, *map * DAffine3::from_translation(high)),
+    };
+    let middle = 0.5 * (high - low);
+    // A slab that is thinner than it is moved has nothing in it.
+    let mut scale = (DVec3::ONE + (low + high) / (2.0 * half)).max(DVec3::splat(f64::EPSILON));
+    let mut unit = *unit;
+    if let UnitShape::Cone { radii, .. } = &mut unit {
+        let [a, b] = *radii;
+        let ends = [middle.z - scale.z, middle.z + scale.z].map(|z| (a + 0.5 * (b - a) * (z + 1.0)).max(0.0));
+        let most = ends[0].max(ends[1]);
+        (*radii, scale) = (ends.map(|r| r / most), DVec3::new(most, most, scale.z));
+    }
+    (unit, *map * DAffine3::from_translation(middle) * DAffine3::from_scale(scale))
 }
 
 /// Finds the walls that are moved.

@@ -99,7 +99,7 @@ pub fn explain(
             plan: None,
             moves: true,
             before: Counted::default(),
-            goals: Goals::new(scene, options),
+            goals: Goals::new(scene, options, &film),
             keeper: None,
         };
         handed_before(whole, engine.kernels, &film, &work, sample).ok()?.give(&mut painter);

@@ -1,5 +1,6 @@
 //! `tracer info`: what is in a scene, and what it takes; what is in a checkpoint; what a picture tells of itself.
 
+mod objects;
 mod picture;
 
 use crate::args::InfoArgs;
@@ -37,6 +38,12 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
         to_text(&desc, syntax.unwrap_or(Syntax::Ron), Defaults::Shown)
     } else {
         let scene = compile(&desc, args.scene.diagnostics, Known::Nothing, shell)?;
+        if args.objects {
+            return print(&match args.json {
+                true => format!("{:#}\n", objects::as_json(&scene, &desc)),
+                false => objects::as_text(&scene, &desc),
+            });
+        }
         let facts = Facts {
             name: name(&desc),
             film: of_film(Crop::whole(scene.size), &desc.render, scene.layers, false),
@@ -49,12 +56,17 @@ pub(super) fn run(args: &InfoArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     print(&text)
 }
 
+/// Whether anything is asked that only scenes have.
+fn is_for_scenes(args: &InfoArgs) -> bool {
+    args.objects || args.resolved || !args.scene.sets().is_empty()
+}
+
 /// Of a checkpoint, which is read to its end: whoever asks wants to know whether it is whole.
 fn of_checkpoint(args: &InfoArgs) -> Result<ExitCode, Failure> {
     let path = &args.scene.scene;
-    if args.resolved || !args.scene.sets().is_empty() {
+    if is_for_scenes(args) {
         return Err(Failure::wrong(format!(
-            "{} is a checkpoint; --resolved, --set, --camera and --frame are for scenes",
+            "{} is a checkpoint; --objects, --resolved, --set, --camera and --frame are for scenes",
             path.display()
         )));
     }
@@ -100,9 +112,9 @@ fn of_record(args: &InfoArgs, of: &str) -> Result<ExitCode, Failure> {
 
 /// Refuses what is for scenes, of a file of a cache.
 fn alone(args: &InfoArgs) -> Result<(), Failure> {
-    if args.resolved || !args.scene.sets().is_empty() {
+    if is_for_scenes(args) {
         return Err(Failure::wrong(format!(
-            "{} is a file of a cache; --resolved, --set, --camera and --frame are for scenes",
+            "{} is a file of a cache; --objects, --resolved, --set, --camera and --frame are for scenes",
             args.scene.scene.display()
         )));
     }
@@ -169,6 +181,9 @@ impl Facts {
             let all: Vec<String> = spheres.chain(other).chain([counted(meshes, "mesh")]).collect();
             format!("{total} ({})", all.join(", "))
         });
+        if let Some(objects) = objects::not_in_view(&self.scene, &self.desc) {
+            line("no view of", objects);
+        }
         line("lights", tracer_core::shining_objects(&self.scene).to_string());
         line(
             "triangles",

@@ -30,11 +30,11 @@ pub fn told(path: &Path) -> Result<Option<Told>, Failure> {
 
 pub fn of_picture(args: &InfoArgs, told: &Told) -> Result<ExitCode, Failure> {
     let path = &args.scene.scene;
-    if args.resolved || !args.scene.sets().is_empty() {
+    if super::is_for_scenes(args) {
         let shown = path.display();
         return Err(Failure::wrong(format!(
-            "{shown} is a picture; --resolved, --set, --camera and --frame are for scenes: `tracer new a.ron --from \
-             {}` writes its scene",
+            "{shown} is a picture; --objects, --resolved, --set, --camera and --frame are for scenes: `tracer new \
+             a.ron --from {}` writes its scene",
             quoted(&path.to_string_lossy())
         )));
     }

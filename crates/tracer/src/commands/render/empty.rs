@@ -1,7 +1,7 @@
 //! Pictures that show nothing, or next to nothing.
 
 use scene_format::codes::Code;
-use scene_format::desc::{Background, Integrator, Light, Object, ToneMap};
+use scene_format::desc::{Background, Integrator, Light, MaterialRef, Object, ToneMap};
 use scene_format::{Diagnostic, SceneDesc, codes};
 use tracer_core::{Crop, Film, Scene};
 
@@ -206,7 +206,12 @@ fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
                 .hint(hint),
         );
     }
-    // What is as bright as the background may be an object in it: then rays went on from there.
+    // What is as bright as the background may be an object in it: then rays went on from there, unless it shines.
+    let inline = |object: &Object| matches!(object.material(), MaterialRef::Inline(of) if of.value.shines().is_some());
+    let shine = desc.materials.iter().any(|named| named.material.shines().is_some());
+    if shine || desc.objects.iter().any(|object| inline(&object.value)) {
+        return None;
+    }
     if film.counters.scattered_rays + film.counters.shadow_rays + film.counters.segments > 0 {
         return None;
     }
@@ -215,7 +220,7 @@ fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     (shown == [true; 3] && background != [0.0; 3]).then(|| {
         Diagnostic::warning(codes::NOTHING_IN_VIEW, span, "nothing is in view: the picture is the background alone")
             .expected("objects between the camera and where it looks")
-            .hint("set `look_at` to the middle of an object; `tracer info` tells where the objects are")
+            .hint("set `look_at` to the middle of an object; `tracer info --objects` tells where the objects are")
     })
 }
 

@@ -132,6 +132,15 @@ pub(super) fn tell_of_names(args: &RenderArgs, shell: &Shell) {
         return;
     }
     for path in files(&mut args.clone()) {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        if without_printf(&stem) != stem {
+            let message = format!(
+                "{} is written under just that name: frames are rendered with --frames 0-47 -o {}",
+                path.display(),
+                example(path).display()
+            );
+            shell.warn(&message);
+        }
         if path.to_string_lossy().contains("##") {
             let message = format!(
                 "{} is written under just that name: # stands for a frame's number with --frames or --frame alone",
@@ -288,11 +297,24 @@ pub fn expect_number(path: &Path) -> Result<(), Failure> {
     if !is_dash(path) && path.to_str().and_then(|name| with_number(name, 0)).is_some() {
         return Ok(());
     }
+    let named = example(path);
+    if is_of_films(path) {
+        return Err(Failure::wrong(format!(
+            "--frames: frames are pictures, of which another program makes a film: -o {}",
+            named.with_extension("png").display()
+        )));
+    }
     Err(Failure::wrong(format!(
         "--frames: each frame has files of its own: put #### for its number into {}, as in {}",
         path.display(),
-        example(path).display()
+        named.display()
     )))
+}
+
+/// Whether a file would be a film.
+fn is_of_films(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    matches!(&*extension, "gif" | "mp4" | "webm" | "avi" | "mov" | "mkv" | "apng")
 }
 
 /// A name without the `%04d` at its end that other programs have for `####`.

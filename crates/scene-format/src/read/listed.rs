@@ -1,0 +1,95 @@
+//! What stands where a list is to be: things by their names, `true` for all words that may stand in it.
+
+use super::{Reader, describe, plain};
+use crate::codes;
+use crate::diagnostic::{Diagnostic, Edit};
+use crate::schema::{Content, FieldDef, Type};
+use crate::syntax::Syntax;
+use crate::tree::{Item, Kind};
+
+/// What a list takes, where these are words by themselves, and the list of all of them; else just that it is a list.
+pub(super) fn list_of_words(at: &FieldDef, item: Item<'_, '_>) -> (String, Option<String>) {
+    if is_of_points(at) {
+        return (super::value::expected_for(at, item), None);
+    }
+    const MOST: usize = 4;
+    let words: Vec<&str> = match at.kind {
+        Type::List(Type::Enum(def)) if def.variants.iter().all(|kind| matches!(kind.content, Content::Unit)) => {
+            def.variants.iter().map(|variant| variant.name).collect()
+        }
+        _ => Vec::new(),
+    };
+    if words.is_empty() || words.len() > MOST {
+        return ("a list: [a, b, c]".to_owned(), None);
+    }
+    let written: Vec<String> = words
+        .iter()
+        .map(|word| if item.syntax() == Syntax::Ron { (*word).to_owned() } else { format!("\"{word}\"") })
+        .collect();
+    let list = format!("[{}]", written.join(", "));
+    (format!("a list: {list}, or some of them"), Some(list))
+}
+
+/// Whether a list is one of points or of rings of points.
+pub(super) fn is_of_points(at: &FieldDef) -> bool {
+    let is_point = |kind: &Type| matches!(kind, Type::Pair | Type::Vector | Type::Number);
+    matches!(at.kind, Type::List(of) if is_point(of) || matches!(of, Type::List(of) if is_point(of)))
+}
+
+impl Reader<'_> {
+    /// Objects or lights by their names, `{ "ball": Sphere(..) }`: reported here, with the list that is meant. `false`:
+    /// it is something else.
+    pub(super) fn list_by_names(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
+        // No one names more than this by hand.
+        const MOST: usize = 64;
+        let Type::List(of) = at.kind else { return false };
+        let Type::Enum(def) = of.resolved() else { return false };
+        let is_kind = |word: &str| def.variant(word).is_some();
+        let named: Vec<_> = item.fields().take(MOST).collect();
+        let is_thing = |value: &Item<'_, '_>| match value.kind() {
+            Kind::Struct | Kind::Tuple => value.name().is_some_and(is_kind),
+            Kind::Map => value.fields().next().is_some_and(|(key, _)| is_kind(&key.text())),
+            _ => false,
+        };
+        let right = |(key, value): &(Item<'_, '_>, Item<'_, '_>)| !is_kind(&key.text()) && is_thing(value);
+        if !matches!(at.name, "objects" | "lights") || named.is_empty() || !named.iter().all(right) {
+            return false;
+        }
+        let message = format!("{} cannot be {}", plain(at.noun), describe(item));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message);
+        (fault.expected, fault.hint) = match item.syntax() {
+            Syntax::Ron => (
+                "a list: [Sphere(..), Box(..)]".to_owned(),
+                "they stand in a list, and what one is called is its `name`: [Sphere(.., name: \"ball\"), ..]"
+                    .to_owned(),
+            ),
+            Syntax::Toml => (
+                format!("[[{}]] before each", at.name),
+                "they stand in a list, and what one is called is its `name`, beside its other fields".to_owned(),
+            ),
+            Syntax::Json => (
+                "a list: [{ \"Sphere\": .. }, { \"Box\": .. }]".to_owned(),
+                "they stand in a list, and what one is called is its `name`: [{ \"Sphere\": { .., \"name\": \"ball\" } \
+                 }, ..]"
+                    .to_owned(),
+            ),
+        };
+        let with_name = |(key, value): &(Item<'_, '_>, Item<'_, '_>)| {
+            let own = value.fields().any(|(field, _)| field.text() == "name");
+            // `Plane()` has no fields, and no values without names.
+            let has_fields = value.kind() == Kind::Struct || value.children().next().is_none();
+            let inner = value.lexeme().strip_suffix(')').filter(|_| has_fields && !own)?;
+            let inner = inner.trim_end().trim_end_matches(',').trim_end();
+            let comma = if inner.ends_with('(') { "" } else { ", " };
+            // A comment behind the last field would swallow the name.
+            let is_plain = !inner.contains("//");
+            is_plain.then(|| format!("{inner}{comma}name: {:?})", key.text()))
+        };
+        if item.syntax() == Syntax::Ron && named.len() < MOST {
+            let list: Option<Vec<String>> = named.iter().map(with_name).collect();
+            fault.edit = list.map(|list| Edit { span: item.span(), replacement: format!("[{}]", list.join(", ")) });
+        }
+        self.report(fault);
+        true
+    }
+}
