@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::form::{BLANK_LINE, Entry, FILLED, Form, OWN_LINES};
 use crate::load::{LoadError, load_str};
 use crate::print;
-use crate::read::{PICK, REPEAT, is_expression, pick_body, repeat_body};
+use crate::read::{PICK, REPEAT, SETTINGS, is_expression, pick_body, repeat_body};
 use crate::schema::{Content, EnumDef, StructDef, Type, fits};
 use crate::syntax::parse;
 use crate::syntax::{Sink, Syntax};
@@ -93,13 +93,16 @@ fn is_of_values(fault: &Diagnostic) -> bool {
     fault.code.is_value() || names.contains(&fault.code) || missing.contains(&fault.code)
 }
 
-/// Whether a text is there to be included: it has values, textures, materials or cameras for other scenes, and nothing
-/// to render.
+/// Whether a text is there to be included: it has values, textures, materials, cameras or settings for other scenes, and
+/// nothing to render. A background alone is a scene that somebody has begun.
 pub fn is_library(text: &str, syntax: Syntax) -> bool {
     let tree = parse(text, syntax, &mut Sink::default());
     let fields = || tree.root().into_iter().flat_map(|root| root.fields().map(|(key, _)| key.text().into_owned()));
     const SHARED: [&str; 5] = ["vars", "textures", "materials", "cameras", "include"];
-    fields().any(|key| SHARED.contains(&&*key)) && fields().all(|key| key == "version" || SHARED.contains(&&*key))
+    let is_setting = |key: &str| SETTINGS.contains(&key);
+    let is_shared = |key: &str| SHARED.contains(&key);
+    fields().any(|key| is_shared(&key) || is_setting(&key) && key != "background")
+        && fields().all(|key| key == "version" || is_shared(&key) || is_setting(&key))
 }
 
 struct Converter<'t, 's> {

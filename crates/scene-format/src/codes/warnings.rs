@@ -138,7 +138,8 @@ codes! {
     /// that; so is one that is wider than the way. An `exposure` above 10 is in stops, which double what is seen each,
     /// and makes a background more than 500 times as bright as white. A `focal_length` below 1 is in metres. An `up`
     /// within ten degrees of the view turns the picture by chance: y is up here. `random(-1, 1)` is no range: its
-    /// numbers are seeds, which give one number from 0 to 1.
+    /// numbers are seeds, which give one number from 0 to 1. Objects that are seen in three by three pixels, all of
+    /// them, are in other units than the camera's place.
     ///
     /// ```ron
     /// Scene(background: (135, 206, 235), objects: [Sphere(center: (0, 0, 0), radius: 1)])

@@ -121,6 +121,31 @@ const WORDS: &[(&[&str], &str)] = &[
          expressions, and `tracer render scene.ron --frames 0-47 -o frame_####.png`",
     ),
     (
+        &["turntable", "orbit", "carousel", "spin around", "fly around", "camera path"],
+        "the camera goes round by `camera: Camera(position: \"=(6*sin(360*frame/48), 2, 6*cos(360*frame/48))\", \
+         look_at: (0, 0, 0))`, with `animation: Animation(frames: 48)`: docs/animation.md",
+    ),
+    (
+        &["wireframe", "outlines", "edges", "line art", "lineart", "freestyle", "stroke", "toon", "cel shading"],
+        "there are no lines and no drawn shading; the layers `object_id`, `normal` and `depth` of an EXR tell another \
+         program where edges are",
+    ),
+    (
+        &["style", "theme", "shared settings", "preset", "template", "house style"],
+        "what several scenes share stands in one file: `include: [\"style.ron\"]` takes its materials, cameras, \
+         `vars`, image size and settings",
+    ),
+    (
+        &["explode", "exploded view", "explosion drawing", "assembly"],
+        "parts move apart by a name of `vars`: `vars: { \"apart\": 0.5 }`, and `transform: [Translate((0, \
+         \"=2*apart\", 0))]` of each; `--set vars.apart=1` shows it",
+    ),
+    (
+        &["hexagon", "pentagon", "regular polygon", "nut", "ngon", "n-gon", "octagon"],
+        "a regular outline is a rule: Extrude(outline: [[Repeat(count: 6, items: [\"=(cos(60*i), sin(60*i))\"])]], \
+         depth: 0.4); a second ring is a hole",
+    ),
+    (
         &["grass", "hair", "fur", "tree", "forest", "leaf", "leaves", "particle", "crowd", "pebbles", "stones"],
         "many of one thing are its `placements: Scatter(..)`, or a `Repeat`; what grows is a Mesh, a Cone or a Tube",
     ),

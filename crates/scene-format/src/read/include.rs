@@ -80,11 +80,6 @@ impl Words for Includes {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         let read = reader.libraries(item, at);
-        // Names may be missing that they would have brought.
-        reader.materials.damaged |= read.is_none();
-        reader.named.damaged |= read.is_none();
-        reader.cameras.damaged |= read.is_none();
-        reader.vars.damaged |= read.is_none();
         read.map(|()| Includes)
     }
 
@@ -153,13 +148,17 @@ impl Reader<'_> {
 
     /// The tree of a file that an item names; what is wrong with it is reported.
     pub(super) fn open<'t, 's>(&mut self, name: Item<'t, 's>, text: &str) -> Option<(&'t Root, Item<'t, 's>)> {
-        // Names may be missing that it would have brought.
         let opened = self.opened(name, text);
-        self.materials.damaged |= opened.is_none();
-        self.named.damaged |= opened.is_none();
-        self.cameras.damaged |= opened.is_none();
-        self.vars.damaged |= opened.is_none();
+        if opened.is_none() {
+            self.names_may_be_missing();
+        }
         opened
+    }
+
+    /// Notes that a file has not brought its names, for that no other fault is to be told.
+    pub(super) fn names_may_be_missing(&mut self) {
+        (self.materials.damaged, self.cameras.damaged) = (true, true);
+        (self.named.damaged, self.vars.damaged) = (true, true);
     }
 
     fn opened<'t, 's>(&mut self, name: Item<'t, 's>, text: &str) -> Option<(&'t Root, Item<'t, 's>)> {

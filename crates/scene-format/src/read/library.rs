@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 
 /// Groups that are taken field by field, and the background: of each what the scene says wins, then what the later file
 /// does.
-const SETTINGS: &[&str] = &["image", "render", "effects", "output", "background"];
+pub(crate) const SETTINGS: &[&str] = &["image", "render", "effects", "output", "background"];
 
 /// What the files that are included bring beside names.
 #[derive(Debug, Default)]
@@ -113,6 +113,9 @@ impl Reader<'_> {
             }
         });
         self.libraries.readable.insert(item.index() as u32, readable);
+        if read.is_none() {
+            self.names_may_be_missing();
+        }
         read
     }
 
@@ -136,9 +139,7 @@ impl Reader<'_> {
                         .into_owned(),
                 })
                 .label(key.span(), "they are here");
-            // What it would have brought is missing for that reason.
-            (self.materials.damaged, self.cameras.damaged) = (true, true);
-            (self.named.damaged, self.vars.damaged) = (true, true);
+            self.names_may_be_missing();
             self.report(fault);
             return false;
         }

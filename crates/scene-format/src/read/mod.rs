@@ -45,6 +45,7 @@ pub(crate) use check::{Whole, scene};
 pub(crate) use everyday::{everyday, thing};
 pub(crate) use hints::command_line;
 pub(crate) use include::{GivenMaterials, GivenVars, Includes};
+pub(crate) use library::SETTINGS;
 pub(crate) use nameless::field_of;
 pub(crate) use part::part;
 pub(crate) use pick::{PICK, pick_body};

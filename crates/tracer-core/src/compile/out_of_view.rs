@@ -3,7 +3,7 @@
 use glam::DVec3;
 use scene_format::desc::Background;
 use scene_format::{Diagnostic, SceneDesc, codes};
-use tracer_kernels::scene::{Camera, Filter, Projection, Scene};
+use tracer_kernels::scene::{Camera, Filter, Projection, Scene, Sphere};
 
 /// Warns where all boxes of the scene lie beyond one of the planes that bound the view. Where something is in view in
 /// part, behind others, or between boxes, that is for the picture to tell.
@@ -36,19 +36,66 @@ pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
             [DVec3::new(x, y, z), DVec3::new(x1, y1, z1)]
         })
     });
-    let of_spheres = scene.spheres.iter().skip(scene.tables.spheres.in_tree).map(|sphere| {
+    // Lamps are behind the objects.
+    let is_object = |object: u32| (object as usize) < desc.objects.len();
+    let loose = scene.spheres.iter().skip(scene.tables.spheres.in_tree);
+    let of_sphere = |sphere: &Sphere| {
         let (center, radius) = (sphere.center, DVec3::splat(sphere.radius.abs()));
         [center - radius, center + radius]
-    });
+    };
+    let all = || of_tree.clone().chain(loose.clone().map(of_sphere));
+    let objects = || of_tree.clone().chain(loose.clone().filter(|sphere| is_object(sphere.object)).map(of_sphere));
+    if let Some([width, height]) = speck(scene, objects()) {
+        let way = scene.camera.eye.distance(objects().next().map_or(DVec3::ZERO, |[low, high]| 0.5 * (low + high)));
+        let message = format!("all that the scene has is seen in {width}x{height} pixels");
+        let far = format!("the camera is {} away from it", rounded(way / scene.frame.scale));
+        return Some(
+            Diagnostic::warning(codes::OTHER_SCALE, desc.camera.position.span, message)
+                .expected("a camera near enough to see it")
+                .hint(format!("{far}: move it nearer, or is one of the two in other units?")),
+        );
+    }
     let mut any = false;
-    let mut all = of_tree.chain(of_spheres).inspect(|_| any = true);
-    let outside = all.all(|ends| beside(&ends));
+    let outside = all().inspect(|_| any = true).all(|ends| beside(&ends));
     (outside && any).then(|| {
         let message = "nothing is in view: all that the scene has lies beside or behind the view";
         Diagnostic::warning(codes::NOTHING_IN_VIEW, desc.camera.look_at.span, message)
             .expected("objects between the camera and where it looks")
             .hint("set `look_at` to the middle of an object; `tracer info --objects` tells where the objects are")
     })
+}
+
+/// A number as people say it.
+fn rounded(x: f64) -> String {
+    let step = libm::exp10(libm::floor(libm::log10(x.max(1e-300))) - 1.0);
+    format!("{}", (x / step).round() * step)
+}
+
+/// How many columns and rows of pixels the boxes take, where these are a few of many; `None`: they are more, or reach
+/// behind the camera.
+fn speck(scene: &Scene, boxes: impl Iterator<Item = [DVec3; 2]>) -> Option<[u32; 2]> {
+    const MOST: f64 = 3.0;
+    let camera = &scene.camera;
+    if scene.size.iter().any(|&side| f64::from(side) < 16.0 * MOST) {
+        return None;
+    }
+    let half = scene.size.map(|side| 0.5 * f64::from(side));
+    let mut seen: Option<[[f64; 2]; 2]> = None;
+    for ends in boxes {
+        for k in 0..8 {
+            let pick = |bit: usize| ends[k >> bit & 1][bit];
+            let place = camera.sees(-1.0, DVec3::new(pick(0), pick(1), pick(2))).in_whole?;
+            let at = [0, 1].map(|axis| place[axis] * half[axis]);
+            let [low, high] = seen.unwrap_or([at, at]);
+            let low = [0, 1].map(|axis| f64::min(low[axis], at[axis]));
+            let high = [0, 1].map(|axis| f64::max(high[axis], at[axis]));
+            if (0..2).any(|axis| high[axis] - low[axis] > MOST || low[axis] < -half[axis] || high[axis] > half[axis]) {
+                return None;
+            }
+            seen = Some([low, high]);
+        }
+    }
+    seen.map(|[low, high]| [0, 1].map(|axis| libm::ceil(high[axis] - low[axis]).max(1.0) as u32))
 }
 
 /// Whether a box, given by two of its corners, lies beyond a plane of the view; `None`: the view has no such planes.

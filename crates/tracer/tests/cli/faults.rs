@@ -127,6 +127,10 @@ fn many_scenes_are_checked() {
     let out = ran.out_text();
     ran.says(&["centre", "no.obj", "the red channel of the albedo", "no.png", "3 of 5 scenes are wrong"]);
     assert!(out.contains("b.ron: ok, 1 object") && out.contains("lib.ron: ok, to be included"), "{out}");
+    sandbox.write("style.ron", "Scene(image: Image(width: 90), render: Render(samples: 3), background: 1)");
+    assert!(sandbox.run(&["check", "style.ron"]).ends(0).out_text().contains("style.ron: ok, to be included"));
+    sandbox.write("begun.ron", "Scene(background: 1)");
+    sandbox.run(&["check", "begun.ron"]).ends(2).says(&["the scene has no objects"]);
     sandbox.run(&["fmt", "lib.ron"]).ends(0);
     assert!(sandbox.text("lib.ron").contains("vars: { \"h\": 2 }"), "{}", sandbox.text("lib.ron"));
     // Names that nobody has given and values out of range are laid out all the same.

@@ -107,3 +107,29 @@ fn what_lies_behind_a_plane_is_told() {
         assert!(code(&format!("Plane(), {seen}, {shown}")).is_empty(), "{shown}");
     }
 }
+
+/// What is no larger than a few pixels was meant to be seen: a camera in millimetres, say.
+#[test]
+fn a_scene_that_is_a_speck_is_told() {
+    let sandbox = Sandbox::new();
+    let at = |z: f64, objects: &str| {
+        let light = "SphereLight(center: (300, 400, 500), radius: 50, power: 1e6)";
+        sandbox.write(
+            "speck.ron",
+            format!(
+                "Scene(image: Image(width: 200, height: 150), camera: Camera(position: (0, 0, {z:?}), \
+                 look_at: (0, 0, 0)), lights: [{light}], objects: [{objects}])"
+            ),
+        );
+        sandbox.run(&["check", "speck.ron"]).ends(0).err
+    };
+    for objects in ["Box(size: 1)", "Sphere(center: (0, 0, 0), radius: 0.5), Box(center: (1, 0, 0), size: 0.5)"] {
+        let told = at(500.0, objects);
+        assert!(told.contains("warning[W0317]: all that the scene has is seen in"), "{told}");
+        assert!(told.contains("the camera is 500 away from it"), "{told}");
+        assert_eq!(at(5.0, objects), "");
+    }
+    for seen in ["Box(size: 1), Plane(point: (0, -1, 0))", "Box(size: 1), Box(center: (30, 0, 0), size: 1)"] {
+        assert_eq!(at(500.0, seen), "", "{seen}");
+    }
+}

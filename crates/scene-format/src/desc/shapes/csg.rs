@@ -264,6 +264,10 @@ fn unfit(object: &Object) -> Option<(String, &'static str)> {
         Object::Cone(_) => ("an open cone has no inside".to_owned(), closed),
         Object::Rectangle(_) => ("a rectangle has no inside".to_owned(), "a thin `Box` has one"),
         Object::Disk(_) => ("a disk has no inside".to_owned(), "a short `Cylinder` has one"),
+        Object::Extrude(_) => {
+            let message = "an `Extrude` is made of triangles, and cannot be part of a solid";
+            (message.to_owned(), "its holes are further rings of its `outline`; or let it stand beside the solid")
+        }
         other => {
             let kind = other.kind();
             let article = if kind.starts_with(['A', 'E']) { "an" } else { "a" };
