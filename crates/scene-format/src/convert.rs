@@ -93,8 +93,8 @@ fn is_of_values(fault: &Diagnostic) -> bool {
     fault.code.is_value() || names.contains(&fault.code) || missing.contains(&fault.code)
 }
 
-/// Whether a text is there to be included: it has values, textures, materials, cameras or settings for other scenes, and
-/// nothing to render. A background alone is a scene that somebody has begun.
+/// Whether a text is there to be included: it has values, textures, materials, cameras or settings for other scenes,
+/// and nothing to render. A background alone is a scene that somebody has begun.
 pub fn is_library(text: &str, syntax: Syntax) -> bool {
     let tree = parse(text, syntax, &mut Sink::default());
     let fields = || tree.root().into_iter().flat_map(|root| root.fields().map(|(key, _)| key.text().into_owned()));
