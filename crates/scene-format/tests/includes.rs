@@ -165,6 +165,13 @@ fn one_of_several_cameras_of_files_is_chosen() {
     assert_eq!(codes(load(&folder.join("none.ron"))), ["E0411"]);
     let height = |name: &str| load(&folder.join(name)).expect("right").scene.camera.position.value[1];
     assert_eq!([height("named.ron"), height("own.ron")], [2.0, 3.0]);
+    // A field of it would make another one, of which nothing else is said.
+    let set = |name: &str, set: &str| load_with(&folder.join(name), &[Override::from(set)]);
+    assert_eq!(codes(set("none.ron", "camera.fov=20")), ["E0403"]);
+    let whole = set("none.ron", "camera=Camera(position: (0, 7, 9), look_at: (0, 0, 0))").expect("right");
+    assert_eq!(whole.scene.camera.position.value[1], 7.0);
+    let of_file = set("named.ron", "cameras.b=Camera(position: (0, 8, 9), look_at: (0, 0, 0))").expect("right");
+    assert_eq!(of_file.scene.camera.position.value[1], 8.0);
 }
 
 fn codes(result: Result<Loaded, LoadError>) -> Vec<String> {

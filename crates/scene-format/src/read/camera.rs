@@ -165,6 +165,19 @@ impl Reader<'_> {
         }
     }
 
+    /// A field of the camera that `--set` gives where the scene writes none and takes those of included files: another
+    /// camera would be made, with its own defaults.
+    pub(super) fn camera_of_set(&mut self, root: Item<'_, '_>) {
+        let written = root.fields().find(|(key, _)| key.text() == "camera").map(|(_, item)| item);
+        let of_set = |item: &Item<'_, '_>| item.kind() == Kind::Map && item.span().source != root.span().source;
+        let Some(item) = written.filter(of_set) else { return };
+        let Some(first) = self.cameras.read.first().filter(|named| self.is_included(named.name.span)) else { return };
+        let name = shortened(&first.name.value);
+        let message = "the camera of this scene is one of an included file";
+        let fault = Diagnostic::error(codes::BAD_SET_PATH, item.head(), message);
+        self.report(fault.hint(format!("set it as a whole: 'cameras.{name}=Camera(..)'")));
+    }
+
     /// The camera that is meant.
     pub(super) fn chosen(&mut self, choice: CameraChoice) -> Chosen {
         let name = match choice {

@@ -54,6 +54,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     reader.foretell_textures(root);
     let scene = Scene::read(&mut reader, root, &ROOT);
     reader.several_cameras(root);
+    reader.camera_of_set(root);
     reader.pending_vars(root);
     let objects = root.fields().find(|(key, _)| key.text() == "objects").map(|(_, value)| value);
     let no_root = scene.is_none();
