@@ -9,11 +9,11 @@ use crate::syntax::Syntax;
 use std::path::Path;
 
 impl Source {
-    /// The syntax that it is in: by its name, else by its looks. `--set` speaks RON.
+    /// The syntax that it is in: by its name, else by its looks. `--set` and other options speak RON.
     pub fn syntax(&self) -> Syntax {
         match Syntax::from_path(Path::new(&self.name)) {
             Some(syntax) => syntax,
-            None if self.name == "--set" => Syntax::Ron,
+            None if self.name.starts_with("--") => Syntax::Ron,
             None => Syntax::guess(&self.text),
         }
     }

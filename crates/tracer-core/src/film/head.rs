@@ -42,6 +42,7 @@ pub struct FilmHead {
     pub(super) caustics: bool,
     pub(super) layers: Vec<SavedLayer>,
     pub(super) halves: bool,
+    pub(super) of_moments: bool,
     pub(super) backdrop: bool,
     pub(super) mattes: MattesKept,
     pub(super) groups: FilmGroups,
@@ -71,6 +72,7 @@ impl FilmHead {
             caustics: film.caustics,
             layers: film.layers.iter().map(|layer| layer.saved()).collect(),
             halves: film.halves,
+            of_moments: film.of_moments,
             backdrop: film.backdrop,
             mattes: film.mattes,
             groups: film.groups.clone(),
@@ -94,7 +96,7 @@ impl FilmHead {
         let whole = *self.samples.start();
         let mut numbers = vec![self.size[0], self.size[1], x, y, width, height, self.seed];
         numbers.push(self.clamp.map_or(0, f32::to_bits));
-        numbers.extend([self.reuse, self.caustics, self.halves, self.backdrop].map(u32::from));
+        numbers.extend([self.reuse, self.caustics, self.halves, self.of_moments, self.backdrop].map(u32::from));
         numbers.push(self.mattes.bits());
         numbers.extend([whole, *self.samples.end(), self.light_samples, self.octave.samples]);
         let (end, pieces) = self.unfinished.as_ref().map_or((0, &[][..]), |rest| (rest.end, &rest.pieces[..]));
@@ -135,7 +137,7 @@ impl FilmHead {
         let crop = Crop { x: next()?, y: next()?, width: next()?, height: next()? };
         let (seed, clamp) = (next()?, f32::from_bits(next()?));
         let [reuse, caustics] = [next()? != 0, next()? != 0];
-        let [halves, backdrop] = [next()? != 0, next()? != 0];
+        let [halves, of_moments, backdrop] = [next()? != 0, next()? != 0, next()? != 0];
         let mattes = MattesKept::from_bits(next()?)?;
         let samples = next()?..=next()?;
         let (light_samples, of_octave, end, count) = (next()?, next()?, next()?, next()?);
@@ -183,6 +185,7 @@ impl FilmHead {
             caustics,
             layers,
             halves,
+            of_moments,
             backdrop,
             mattes,
             groups,
