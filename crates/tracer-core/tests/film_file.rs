@@ -265,6 +265,6 @@ fn mutants_of(scene: &Scene) {
     });
     assert!(matches!(Film::load(&mut &b"Scene(objects: [])"[..]), Err(FilmError::Foreign)));
     let mut later = file.clone();
-    later[8] = 9;
-    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(9))));
+    later[8] = 10;
+    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(10))));
 }
