@@ -53,8 +53,7 @@ pub(super) fn step(name: &str) -> String {
 /// How an entry of a map of the scene is set that no file of the scene itself has.
 pub(super) fn as_a_whole(noun: &str, name: &str, kind: Type) -> String {
     let map = Scene::DEF.fields.iter().find(|field| field.noun == noun).map_or("", |field| field.name);
-    let value = kind.group().map_or(String::new(), |def| def.name.to_owned());
-    let value = if value.is_empty() { "Diffuse".to_owned() } else { value };
+    let value = kind.group().map_or("Diffuse", |def| def.name);
     match map {
         "cameras" | "materials" => format!("set it as a whole: '{map}.{name}={value}(..)'"),
         _ => "set it as a whole".to_owned(),
