@@ -50,6 +50,7 @@ use std::ops::Range;
 use tracer_kernels::layers::{Kept, Layer, LayerSet};
 use tracer_kernels::level::Level;
 use tracer_kernels::report::{Costs, Counters, Statistics};
+use tracer_kernels::sampling::blocks::QUARTERS;
 
 /// Pixels of a tile.
 const PIXELS: usize = (TILE * TILE) as usize;
@@ -270,8 +271,8 @@ pub struct Film {
     part: Option<Part>,
     /// Made of parts, of which some are missing.
     has_gaps: bool,
-    /// All pixels of a sample index see one moment of a scene in which something moves.
-    pub(crate) of_moments: bool,
+    /// How many moments the pixels of a sample index see ([`crate::Scene::moments_of_sample`]).
+    pub(crate) moments: u32,
     seed: u32,
     /// What a radiance of one in the sums stands for; a power of two.
     unit: f64,
@@ -335,7 +336,7 @@ impl Film {
             crop,
             part: None,
             has_gaps: false,
-            of_moments: false,
+            moments: 0,
             seed,
             unit,
             layers: Vec::new(),
@@ -405,8 +406,17 @@ impl Film {
     }
 
     /// How many sample indices' light paths are on it.
-    fn light_count(&self) -> u32 {
-        self.light_samples.saturating_sub(self.first())
+    fn light_count(&self) -> f64 {
+        f64::from(self.light_samples.saturating_sub(self.first())) + self.light_of_quarters()
+    }
+
+    /// What part of the light paths of a sample index that was ended early is on it: where something moves, those of a
+    /// quarter come before its samples.
+    fn light_of_quarters(&self) -> f64 {
+        let pieces = self.unfinished.as_ref().filter(|_| self.moments == QUARTERS).map_or(&[][..], |rest| &rest.pieces);
+        let Some(rest) = pieces.first() else { return 0.0 };
+        let begun = (u64::from(rest.places.start) * u64::from(QUARTERS)).div_ceil(u64::from(rest.places.end).max(1));
+        begun as f64 / f64::from(QUARTERS)
     }
 
     /// Whether sums of the two stand for the same radiance.
@@ -477,7 +487,7 @@ impl Film {
         let [r, g, b] = match splats {
             None => sums.mean(pixel, samples),
             // As always but where a rendering was ended early; half the work.
-            Some(splats) if samples == self.light_count() => sums.mean_with(splats, pixel, samples),
+            Some(splats) if f64::from(samples) == self.light_count() => sums.mean_with(splats, pixel, samples),
             Some(splats) => {
                 let (of_paths, of_light) = (sums.mean(pixel, samples), splats.mean(pixel, self.light_count()));
                 [of_paths[0] + of_light[0], of_paths[1] + of_light[1], of_paths[2] + of_light[2]]

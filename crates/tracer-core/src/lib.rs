@@ -59,7 +59,7 @@ pub use engine::{
     Brought, Ended, Inspection, LightOf, MetTold, PathTold, Roulette, SampledTold, Scattering, Shared, Told,
     VertexTold, Whole, inspect,
 };
-pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, render, resume};
+pub use engine::{Misfit, Observer, Progress, RenderOptions, Unobserved, quarter_of, render, resume};
 pub use film::{Clamped, Crop, Film, FilmError, FilmHead, FilmState, LayerImage, Note, PROGRAM, SavedFilm};
 pub use film::{FewNoisy, Gap, Gaps, MergeError, NoPlan, Part, Plan, Split, faults as film_faults};
 pub use film::{MatteOf, MattesKept};

@@ -7,6 +7,7 @@ use std::ops::{Deref, DerefMut};
 use std::path::PathBuf;
 use std::sync::Arc;
 use tracer_kernels::layers::{Layer, LayerSet};
+use tracer_kernels::sampling::blocks::QUARTERS;
 use tracer_kernels::sampling::sampler::{Pair, Purpose, hash3};
 pub use tracer_kernels::scene::{
     Albedo, Between, Camera, CurvedLight, Environment, Filter, FisheyeMapping, FlatLight, Frame, GradientAxis,
@@ -103,6 +104,14 @@ pub trait Moments: Send + Sync {
     }
 }
 
+/// Each run of so many sample indices has one in each of as many equal parts of the time that the shutter is open.
+const PARTS: u32 = 16;
+
+/// Where there is more than these and one triangle, or another shape, for so many pixels, all pixels of a sample index
+/// see one moment: to compile the scene four times would take longer than to render it.
+const FEW_PRIMITIVES: u64 = 256;
+const PIXELS_PER_PRIMITIVE: u64 = 64;
+
 /// When a sample index sees the scene: a part, from 0 to 1, of the time that the shutter is open. Each run of 2^k of
 /// them that begins at a multiple of that has one in each of 2^k equal parts of the time.
 ///
@@ -111,6 +120,17 @@ pub trait Moments: Send + Sync {
 fn moment(seed: u32, sample: u32) -> f64 {
     let pair = Pair::new(hash3(seed, 0, 0x005b_077e) as u32, Purpose::Grid);
     f64::from(pair.point(0, 0, sample)[0])
+}
+
+/// When a sample index of a quarter of the pixels sees it. Runs up to [`PARTS`] are as above, whichever quarters their
+/// indices are of: a pixel is of another one each time. Within each of [`PARTS`] parts of the time all quarters of 2^k
+/// such runs have one in each of 2^k [`QUARTERS`] parts of it.
+fn moment_of_quarter(seed: u32, sample: u32, quarter: u32) -> f64 {
+    let part = (moment(seed, sample) * f64::from(PARTS)).floor();
+    let within = Pair::new(hash3(seed, part as u32 + 1, 0x005b_077e) as u32, Purpose::Grid);
+    // Samples beyond the fourth part of all numbers begin anew.
+    let number = (sample / PARTS).wrapping_mul(QUARTERS).wrapping_add(quarter);
+    (part + f64::from(within.point(0, 0, number)[0])) / f64::from(PARTS)
 }
 
 impl Scene {
@@ -131,7 +151,21 @@ impl Scene {
         Some(moments.at(part).map(|scene| self.rendered_as(scene)))
     }
 
-    /// The scene as a sample index of its picture sees it, with a seed; `None` where nothing moves.
+    /// How many moments the pixels of a sample index see: none where nothing moves; four, a quarter of the pixels each;
+    /// one where much has to be compiled for each: more than 256 triangles and other shapes, and one for 64 pixels.
+    pub fn moments_of_sample(&self) -> u32 {
+        let tree = self.accel.as_ref().map_or_else(Default::default, |accel| accel.stats());
+        let primitives = tree.triangles + tree.spheres + tree.shapes + tree.instances;
+        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]);
+        match self.moves() {
+            false => 0,
+            true if primitives <= FEW_PRIMITIVES + pixels / PIXELS_PER_PRIMITIVE => QUARTERS,
+            true => 1,
+        }
+    }
+
+    /// The scene as a sample index of its picture sees it, with a seed, or a quarter of the pixels does where these
+    /// have moments of their own ([`Scene::moments_of_sample`], [`crate::quarter_of`]); `None` where nothing moves.
     ///
     /// ```
     /// use scene_format::{Syntax, load_str};
@@ -142,7 +176,7 @@ impl Scene {
     /// let text = "Scene(background: 1, camera: Camera(shutter: 0.5), \
     ///     objects: [Sphere(center: (\"=24*time\", 0, 0), radius: 1)])";
     /// let scene = compile(&load_str("s.ron", text, Syntax::Ron, Path::new(""), &[])?.scene)?;
-    /// let later = scene.at_sample(7, 0).ok_or("it moves")?.map_err(|faults| faults[0].message.clone())?;
+    /// let later = scene.at_sample(7, Some(3), 0).ok_or("it moves")?.map_err(|faults| faults[0].message.clone())?;
     /// assert_ne!(later.spheres[0].center, scene.spheres[0].center);
     /// # Ok(())
     /// # }
@@ -150,8 +184,8 @@ impl Scene {
     ///
     /// # Errors
     /// What is wrong with it then.
-    pub fn at_sample(&self, sample: u32, seed: u32) -> Option<Result<Scene, Diagnostics>> {
-        self.at(moment(seed, sample))
+    pub fn at_sample(&self, sample: u32, quarter: Option<u32>, seed: u32) -> Option<Result<Scene, Diagnostics>> {
+        self.at(quarter.map_or_else(|| moment(seed, sample), |quarter| moment_of_quarter(seed, sample, quarter)))
     }
 
     /// Another scene, of which is rendered what is rendered of this one.
@@ -235,20 +269,31 @@ words!(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     /// Every aligned run of a power of two is stratified, whatever the seed; so are both halves that denoising keeps.
+    /// Where quarters have moments of their own, runs up to sixteen are, whichever quarters their indices are of, and
+    /// the moments of all quarters of longer runs.
     #[test]
     fn moments_are_stratified() {
+        let are_stratified = |moments: Vec<f64>| {
+            let count = moments.len();
+            let seen: BTreeSet<_> = moments.iter().map(|at| (at * count as f64) as usize).collect();
+            seen.len() == count && moments.iter().all(|at| (0.0..1.0).contains(at))
+        };
         for seed in 0..20 {
             for (power, run) in (0..8).flat_map(|power| (0..4).map(move |run| (power, run))) {
-                let count = 1u32 << power;
-                let mut seen = vec![false; count as usize];
-                for sample in run * count..(run + 1) * count {
-                    let at = moment(seed, sample);
-                    assert!((0.0..1.0).contains(&at));
-                    seen[(at * f64::from(count)) as usize] = true;
+                let samples = || run << power..(run + 1) << power;
+                let quarter = |sample: u32| hash3(seed, sample, run) as u32 % QUARTERS;
+                let of_all = |sample: u32| (0..QUARTERS).map(move |q| moment_of_quarter(seed, sample, q));
+                assert!(are_stratified(samples().map(|sample| moment(seed, sample)).collect()));
+                if power <= 4 {
+                    let any = samples().map(|sample| moment_of_quarter(seed, sample, quarter(sample)));
+                    assert!(are_stratified(any.collect()), "seed {seed}, samples {:?}", samples());
                 }
-                assert!(seen.iter().all(|&seen| seen), "seed {seed}, {count} from {}", run * count);
+                if power >= 4 {
+                    assert!(are_stratified(samples().flat_map(of_all).collect()), "seed {seed}, {:?}", samples());
+                }
             }
         }
     }
@@ -262,7 +307,8 @@ mod tests {
             let mut cells = [0u32; 64];
             for sample in 0..1024 {
                 let [x, _] = pixel.point(5, 9, sample);
-                cells[(moment(seed, sample) * 8.0) as usize * 8 + (f64::from(x) * 8.0) as usize] += 1;
+                cells[(moment_of_quarter(seed, sample, sample / 3 % QUARTERS) * 8.0) as usize * 8
+                    + (f64::from(x) * 8.0) as usize] += 1;
             }
             let chi2: f64 = cells.iter().map(|&n| (f64::from(n) - 16.0).powi(2) / 16.0).sum();
             sum += chi2;

@@ -45,7 +45,7 @@ fn cases() -> Vec<(Scene, Option<Crop>)> {
         (scene(&["background=(0.1, 0.2, 0.3)", "effects.antialiasing=None"]), None),
         (scene(&["output.layers=[Depth, Normal, ObjectId, Variance]", "render.clamp=0.5"]), None),
         (scene(&["output.light_groups=true"]), None),
-        // Each sample sees a moment of its own.
+        // Each quarter of a sample index sees a moment of its own.
         (scene(&["camera.shutter=0.5", "objects[2].center=(\"=2*time\", 1, 0)"]), None),
     ]
 }
@@ -121,8 +121,11 @@ fn a_film_that_was_ended_anywhere_is_gone_on_with() {
         let at_once = render(&scene, &options(37, crop), &Unobserved);
         let pixels = at_once.crop().width * at_once.crop().height;
         let mut partly = 0;
-        for end in (0..13).map(|k| u64::from(pixels) * (1 + 3 * k * k / 10) - k * 71 % 17) {
-            let ended = render(&scene, &options(37, crop), &Watcher::new(end));
+        for k in 0..13 {
+            let end = u64::from(pixels) * (1 + 3 * k * k / 10) - k * 71 % 17;
+            // Where one of two threads has ended a pass the other one may just have done the rest.
+            let threads = 1 + k as usize % 2;
+            let ended = render(&scene, &RenderOptions { threads, ..options(37, crop) }, &Watcher::new(end));
             partly += u32::from(ended.samples().start() != ended.samples().end());
             let film = Film::load(&mut bytes(&ended).as_slice()).expect("a film");
             assert_same(film.clone(), ended);
@@ -265,6 +268,6 @@ fn mutants_of(scene: &Scene) {
     });
     assert!(matches!(Film::load(&mut &b"Scene(objects: [])"[..]), Err(FilmError::Foreign)));
     let mut later = file.clone();
-    later[8] = 10;
-    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(10))));
+    later[8] += 1;
+    assert!(matches!(Film::load(&mut later.as_slice()), Err(FilmError::Format(found)) if found == u32::from(later[8])));
 }

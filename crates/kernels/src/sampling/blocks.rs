@@ -18,6 +18,7 @@
 //! other one.
 
 use super::sampler::{hash3, z_order};
+use std::ops::Range;
 
 /// Pixels along the side of a tile of sampler and film.
 pub const TILE: u32 = 16;
@@ -32,9 +33,20 @@ pub const ITEMS: usize = 16;
 /// Slots of a batch: its paths from the camera.
 pub const PATHS: usize = ITEMS * ITEM_PIXELS;
 
-/// The slots of the block whose first item this is.
-pub fn slots_of_block(first: usize) -> std::ops::Range<usize> {
-    first * ITEM_PIXELS..first * ITEM_PIXELS + BLOCK_PIXELS
+/// The slots of a run of items ([`runs`]).
+pub fn slots_of(run: &Range<usize>) -> Range<usize> {
+    run.start * ITEM_PIXELS..run.end * ITEM_PIXELS
+}
+
+/// The runs of a batch's items that are of one block and sample index: all four of it, or one, where each quarter of
+/// the pixels sees a moment of its own.
+pub fn runs(items: &[Item]) -> impl Iterator<Item = Range<usize>> {
+    let is_of_run = |a: &Item, b: &Item| a.block == b.block && a.sample == b.sample;
+    items.chunk_by(is_of_run).scan(0, |next, run| {
+        let first = *next;
+        *next += run.len();
+        Some(first..*next)
+    })
 }
 
 /// How a picture is cut into blocks at a sample index.
@@ -228,6 +240,18 @@ mod tests {
             let chi2 = own.iter().map(|&(_, &count): &(usize, &f64)| (count - 512.0).powi(2) / 512.0).sum::<f64>();
             assert!(chi2 < 31.0, "{axis} {shift}: {chi2} {counts:?}");
         }
+    }
+
+    /// All items are in a run, whole blocks and parts of them alike.
+    #[test]
+    fn runs_are_of_one_block() {
+        let item = |x: i32, quarter: u32, sample: u32| Item { block: Block::straight([x, 1]), quarter, sample };
+        let whole = (0..2).flat_map(|sample| (0..2).flat_map(move |x| (0..QUARTERS).map(move |q| item(x, q, sample))));
+        let whole: Vec<_> = runs(&whole.collect::<Vec<_>>()).collect();
+        assert_eq!(whole, [0..4, 4..8, 8..12, 12..16]);
+        let parts: Vec<_> = runs(&[item(0, 2, 5), item(1, 2, 5), item(1, 2, 6)]).collect();
+        assert_eq!(parts, [0..1, 1..2, 2..3]);
+        assert_eq!((runs(&[]).count(), slots_of(&(1..3))), (0, 64..192));
     }
 
     /// Both quarters have one line of each pair, and lines of different pairs are of one quarter half the time, or

@@ -4,7 +4,7 @@
 use super::technique::{Engine, Technique};
 use tracer_kernels::engine::batch::Batch;
 use tracer_kernels::engine::pass::Pass;
-use tracer_kernels::sampling::blocks::QUARTERS;
+use tracer_kernels::sampling::blocks::runs;
 use tracer_kernels::scene::Scene;
 
 /// Lights that are traced together.
@@ -28,11 +28,13 @@ impl Lighting<'_> {
     /// Has the techniques say in which of a batch's blocks they work.
     pub fn mark(&self, batch: &mut Batch) {
         (batch.glints, batch.shares) = (0, 0);
-        for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
-            let (block, sample) = (batch.items[first].block, batch.items[first].sample);
-            let items = ((1 << QUARTERS) - 1) << first;
-            self.techniques.iter().for_each(|technique| technique.mark(&block, sample, items, batch));
+        let items = std::mem::take(&mut batch.items);
+        for run in runs(&items) {
+            let (block, sample) = (items[run.start].block, items[run.start].sample);
+            let of_run = ((1 << run.len()) - 1) << run.start;
+            self.techniques.iter().for_each(|technique| technique.mark(&block, sample, of_run, batch));
         }
+        batch.items = items;
     }
 }
 

@@ -40,6 +40,7 @@ use tracer_kernels::engine::pass::{Pass, Task};
 use tracer_kernels::engine::pool::{Counted, Pool};
 use tracer_kernels::layers::Layer;
 use tracer_kernels::level::Level;
+use tracer_kernels::sampling::blocks::QUARTERS;
 use tracer_kernels::scene::Integrator;
 
 /// Why a film cannot be gone on with ([`resume`]).
@@ -60,7 +61,7 @@ pub enum Misfit {
 }
 
 /// Renders the scene: the third hand, `Scene` to [`Film`]. It cannot fail; an observer can end it early. Where
-/// something moves while the shutter is open, each sample index sees a scene of its own ([`Scene::at_sample`]), and
+/// something moves while the shutter is open, each quarter of a sample index sees a scene of its own ([`Scene::at_sample`]), and
 /// what is wrong with one of these ends it early, too ([`Film::fault`]).
 pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -> Film {
     let film = new_film_of(scene, options);
@@ -97,6 +98,14 @@ pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn
         return Err(Misfit::Samples { held, asked: samples });
     }
     go_on(scene, options, film, observer)
+}
+
+/// Of which quarter of the pixels one is at a sample index, 0 to 3, where these see moments of their own
+/// ([`Scene::at_sample`]); `None` where they do not.
+pub fn quarter_of(scene: &Scene, pixel: [u32; 2], sample: u32, seed: u32) -> Option<u32> {
+    let crop = Crop { x: pixel[0], y: pixel[1], width: 1, height: 1 };
+    let quarter = || Grid::new(crop, seed, true).quarter(pixel, sample);
+    if scene.moments_of_sample() == QUARTERS { quarter() } else { None }
 }
 
 fn fits(what: &'static str, same: bool) -> Result<(), Misfit> {
@@ -152,7 +161,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     film.level = options.level.unwrap_or_else(Level::best);
     film.threads = if options.threads == 0 { available_threads() } else { options.threads };
     film.statistics = options.statistics.then(Default::default);
-    film.of_moments = scene.moves();
+    film.moments = scene.moments_of_sample();
     if film.is_begun() && film.unfinished.is_none() && film.whole >= samples {
         return Ok(film);
     }
@@ -209,12 +218,16 @@ impl Work<'_> {
         painter.prepare(&pass);
         let plan = self.plan.filter(|plan| plan.whole == pass.start);
         let blocks = painter.grid.len() as u32;
-        if let Some(plan) = &plan {
-            film.unfinished = Some(plan.pieces(blocks));
-            painter.light_until = plan.light;
+        match &plan {
+            Some(plan) if painter.quarter.is_some() => painter.last_place = plan.blocks,
+            Some(plan) => {
+                film.unfinished = Some(plan.pieces(blocks));
+                painter.light_until = plan.light;
+            }
+            None => {}
         }
         film.unfinished = painter.paint(film, pass.clone(), self.keeper.take());
-        if let Some(left) = plan.and_then(|plan| plan.left(blocks)) {
+        if let Some(left) = plan.filter(|_| painter.quarter.is_none()).and_then(|plan| plan.left(blocks)) {
             let rest = film.unfinished.get_or_insert(Unfinished { end: left.end, pieces: Vec::new() });
             rest.pieces.extend(left.pieces);
         }
@@ -227,10 +240,14 @@ impl Work<'_> {
             }
             film.end_octave();
         }
-        if painter.stopped.load(Ordering::Relaxed) || plan.is_some() {
+        // Of a plan there may be further quarters.
+        let is_last = |plan: Plan| painter.quarter.is_none() || plan.blocks <= painter.places_now().end;
+        if painter.stopped.load(Ordering::Relaxed) || plan.is_some_and(is_last) {
             return false;
         }
-        self.observer.pass(film);
+        if film.unfinished.is_none() {
+            self.observer.pass(film);
+        }
         true
     }
 
@@ -271,6 +288,8 @@ fn painter<'a>(
         plain,
         lightings,
         grid: Grid::new(crop, plain.seed, false),
+        quarter: None,
+        last_place: u32::MAX,
         observer,
         statistics: options.statistics,
         limit: film.clamp.map(|limit| f64::from(limit) / engine.scene.radiance_unit),
@@ -283,7 +302,8 @@ fn painter<'a>(
         samples_total,
         stopped: AtomicBool::new(false),
     };
-    painter.grid = Grid::new(crop, plain.seed, painter.reuses());
+    // Pixels are of other quarters at each sample index.
+    painter.grid = Grid::new(crop, plain.seed, painter.reuses() || film.moments == QUARTERS);
     painter
 }
 
@@ -306,9 +326,11 @@ fn take_up(film: &mut Film, painter: &mut Painter<'_>) -> Result<(), Misfit> {
 
 /// Whether what is left of a pass is of blocks that there are.
 fn has_places(film: &Film, painter: &Painter<'_>) -> Result<(), Misfit> {
-    let places = painter.grid.len();
+    let places = painter.places();
     let pieces = film.unfinished.as_ref().map_or(&[][..], |rest| &rest.pieces);
-    fits("division into blocks", pieces.iter().all(|piece| piece.places.end as usize <= places))
+    // Of quarters the rest is known by where it begins.
+    let is_rest = painter.quarter.is_none() || pieces.len() == 1 && pieces[0].places.end == places;
+    fits("division into blocks", pieces.is_empty() || is_rest && pieces.iter().all(|piece| piece.places.end <= places))
 }
 
 /// When a rendering ends before it has its samples.
@@ -328,7 +350,7 @@ impl Goals {
         let time = scene.time.filter(|_| of_scene).and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         Goals {
             noise: options.noise.filter(|_| plan(options).is_none()).or(scene.noise.filter(|_| of_scene)),
-            first: if film.of_moments { LEAST_MOMENTS } else { 0 },
+            first: LEAST_MOMENTS.checked_div(film.moments).unwrap_or(0),
             until: options.until.or_else(|| Instant::now().checked_add(time?)),
         }
     }
@@ -342,7 +364,7 @@ impl Goals {
     }
 }
 
-/// So many moments at least tell of what is there for a short time only, which all pixels see or none.
+/// So many moments at least tell of what is there for a short time only.
 const LEAST_MOMENTS: u32 = 64;
 
 /// Notes on the film what was counted, beside what it had before.

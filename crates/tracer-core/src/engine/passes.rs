@@ -17,7 +17,7 @@ use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::pool::Pool;
 use tracer_kernels::layers::{LayerSamples, LayerSet};
 use tracer_kernels::report::Stage;
-use tracer_kernels::sampling::blocks::{Item, QUARTERS, slots_of_block};
+use tracer_kernels::sampling::blocks::{Item, QUARTERS, runs, slots_of};
 
 /// Samples of a block that fill a batch.
 pub const SAMPLES: u32 = ITEMS as u32 / QUARTERS;
@@ -156,6 +156,11 @@ pub struct Painter<'a> {
     /// What lights the picture: all lights at once, or one group after the other.
     pub lightings: Vec<Lighting<'a>>,
     pub grid: Grid,
+    /// The quarter of each block's pixels that sees the scene as it is now, where something moves: the others see it at
+    /// other moments.
+    pub quarter: Option<u32>,
+    /// The place before which it ends, where a plan says so of a quarter.
+    pub last_place: u32,
     pub observer: &'a dyn Observer,
     /// Statistics are kept.
     pub statistics: bool,
@@ -197,6 +202,18 @@ impl Painter<'_> {
         self.lightings.iter().any(|lighting| lighting.pass(self.plain).guide.is_some())
     }
 
+    /// Places of a pass: blocks or, where quarters of them see moments of their own, all of the first quarter, then all
+    /// of the second and so on.
+    pub fn places(&self) -> u32 {
+        self.grid.len() as u32 * if self.quarter.is_some() { QUARTERS } else { 1 }
+    }
+
+    /// Those of the quarter that it paints.
+    pub fn places_now(&self) -> Range<u32> {
+        let blocks = self.grid.len() as u32;
+        self.quarter.map_or(0..blocks, |quarter| quarter * blocks..(quarter + 1) * blocks)
+    }
+
     /// Makes ready for these sample indices.
     pub fn prepare(&mut self, samples: &Range<u32>) {
         for Lighting { engine, techniques, .. } in &mut self.lightings {
@@ -204,16 +221,19 @@ impl Painter<'_> {
         }
     }
 
-    /// Adds the samples of a pass, or what is left of it; gives what is left then. The keeper is told the film as it
-    /// was before.
+    /// Adds the samples of a pass, or of a quarter of its pixels, or what is left of it; gives what is left then. The
+    /// keeper is told the film as it was before.
     pub fn paint(&self, film: &mut Film, samples: Range<u32>, keeper: Option<Keeper>) -> Option<Unfinished> {
         let plain = Pass { layers: film.layers(), ..self.plain };
-        let whole = || vec![Piece { places: 0..self.grid.len() as u32, samples: samples.clone() }];
+        let whole = || vec![Piece { places: 0..self.places(), samples: samples.clone() }];
         let pieces = film.unfinished.take().map_or_else(whole, |rest| rest.pieces);
+        let begins = pieces.first().is_none_or(|piece| piece.places.start <= self.places_now().start);
+        let (pieces, later) = self.of_now(pieces);
         // Whole blocks per batch, and a pass's samples of a place one after the other: the tiles that they are added to
         // stay in the cache.
         let at_once = (samples.end - samples.start).min(SAMPLES);
-        let deal = Deal::new(pieces, SAMPLES / at_once);
+        let items = if self.quarter.is_some() { ITEMS as u32 } else { SAMPLES };
+        let deal = Deal::new(pieces, items / at_once);
         let mut light = film.light_samples;
         let cells = Cells::new(film, keeper);
         std::thread::scope(|scope| {
@@ -222,7 +242,11 @@ impl Painter<'_> {
                 let helper = std::thread::Builder::new().spawn_scoped(scope, || cells.keep_all());
                 helper.map(drop).unwrap_or_else(|_| cells.keep_all());
             }
-            light = self.bring(plain, light..samples.end.min(self.light_until), &cells);
+            match self.quarter {
+                None => light = self.bring(plain, light..samples.end.min(self.light_until), &cells),
+                Some(_) if begins && !deal.pieces.is_empty() => drop(self.bring(plain, samples.clone(), &cells)),
+                Some(_) => {}
+            }
             self.pool.on_all(&|batch: &mut Batch| {
                 let mut totals = self.room_for_totals();
                 while !self.stopped.load(Ordering::Relaxed)
@@ -240,8 +264,8 @@ impl Painter<'_> {
         });
         drop(cells);
         film.light_samples = light;
-        let pieces = deal.left();
-        let brings = self.bringers().next().is_some();
+        let pieces = joined(deal.left(), later);
+        let brings = self.quarter.is_none() && self.bringers().next().is_some();
         let is_whole = pieces.is_empty() && (light >= samples.end.min(self.light_until) || !brings);
         (!is_whole).then_some(Unfinished { end: samples.end, pieces })
     }
@@ -262,7 +286,8 @@ impl Painter<'_> {
             // Of one half of the samples only.
             let now = next..samples.end.min(next.saturating_add(at_once)).min(half_end(next));
             for (lighting, technique, _) in self.bringers() {
-                let film = OnFilm { cells, limit: self.limit, half: half_of(next), group: lighting.group };
+                let (half, group) = (half_of(next), lighting.group);
+                let film = OnFilm { cells, limit: self.limit, half, group, quarter: self.quarter };
                 technique.bring(lighting.engine, lighting.pass(plain), now.clone(), film, self.pool);
             }
             next = now.end;
@@ -313,15 +338,30 @@ impl Painter<'_> {
         sample..piece.samples.end
     }
 
-    /// Makes a batch's items those of the blocks at these places and sample indices.
+    /// Makes a batch's items those of the blocks, or quarters of them, at these places and sample indices.
     pub fn fill(&self, places: &Range<u32>, samples: Range<u32>, batch: &mut Batch) {
         batch.items.clear();
+        let quarters = self.quarter.map_or(0..QUARTERS, |quarter| quarter..quarter + 1);
+        let first = self.places_now().start;
         for place in places.clone() {
             for sample in samples.clone() {
-                let Some(block) = self.grid.block(place as usize, self.grid.cut(sample)) else { continue };
-                batch.items.extend((0..QUARTERS).map(|quarter| Item { block, quarter, sample }));
+                let Some(block) = self.grid.block((place - first) as usize, self.grid.cut(sample)) else { continue };
+                batch.items.extend(quarters.clone().map(|quarter| Item { block, quarter, sample }));
             }
         }
+    }
+
+    /// Which pieces are of this quarter and before the last place, and which are left for later.
+    fn of_now(&self, pieces: Vec<Piece>) -> (Vec<Piece>, Vec<Piece>) {
+        let end = self.places_now().end.min(self.last_place);
+        let cut = |from: u32, to: u32| {
+            let within = |Piece { places, samples }: &Piece| {
+                let places = places.start.max(from)..places.end.min(to);
+                (!places.is_empty()).then(|| Piece { places, samples: samples.clone() })
+            };
+            pieces.iter().filter_map(within).collect::<Vec<_>>()
+        };
+        (cut(0, end), cut(end, u32::MAX))
     }
 
     /// Room for the totals of a batch's samples over the groups, where there are groups.
@@ -334,24 +374,24 @@ impl Painter<'_> {
     /// from `totals`, which are zero afterwards.
     fn add_samples(&self, layers: LayerSet, cells: &Cells<'_>, totals: &mut Totals, batch: &mut Batch) -> u64 {
         let mut added = 0;
-        for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
-            let slots = slots_of_block(first);
-            let half = half_of(batch.items[first].sample);
-            cells.each(&batch.pixels, slots.start, |tile, common| {
+        for run in runs(&batch.items) {
+            let slots = slots_of(&run);
+            let half = half_of(batch.items[run.start].sample);
+            cells.each(&batch.pixels, slots.clone(), |tile, common| {
                 if totals.is_empty() {
                     let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
                     let left_out = tile.add(samples, common);
                     batch.counters.dropped += left_out.dropped;
                     batch.counters.beyond += left_out.beyond;
-                    self.add_parts(samples, tile, (&batch.layers, half), first, common);
+                    self.add_parts(samples, tile, (&batch.layers, half), &slots, common);
                 } else {
                     let totals = &totals[slots.clone()];
                     tile.count_totals(totals, common);
-                    self.add_parts(totals, tile, (&batch.layers, half), first, common);
+                    self.add_parts(totals, tile, (&batch.layers, half), &slots, common);
                 }
-                tile.add_layers(&batch.layers, first, common);
+                tile.add_layers(&batch.layers, &slots, common);
                 if !self.mattes.is_empty() {
-                    tile.add_mattes(self.mattes, layers, &batch.layers, first, common);
+                    tile.add_mattes(self.mattes, layers, &batch.layers, &slots, common);
                 }
                 added += common.len() as u64;
             });
@@ -360,24 +400,22 @@ impl Painter<'_> {
         added
     }
 
-    /// Adds what is summed apart of the samples of the block whose first item this is, which are of this half: the
-    /// background, and halves.
+    /// Adds what is summed apart of the samples of a block's slots, which are of this half: the background, and halves.
     fn add_parts(
         &self,
         samples: impl Samples + Copy,
         tile: &mut Tile,
         (layers, half): (&LayerSamples, usize),
-        first: usize,
+        slots: &Range<usize>,
         common: &[[u8; 2]],
     ) {
         if self.backdrop {
-            tile.add_missed(samples, layers, first, common, half);
+            tile.add_missed(samples, layers, slots.start, common, half);
         }
         if half == 1 {
             tile.add_half(samples, common);
         }
         if let Some(place) = self.lamps {
-            let slots = slots_of_block(first);
             let lamps = [0, 1, 2].map(|c| &layers.sums[place + c][slots.clone()]);
             tile.add_lamps(half, lamps, common, self.limit);
         }
@@ -396,14 +434,24 @@ impl Painter<'_> {
     }
 }
 
+/// Pieces and those that come after them, as one where they follow each other.
+fn joined(mut pieces: Vec<Piece>, later: Vec<Piece>) -> Vec<Piece> {
+    for piece in later {
+        match pieces.last_mut().filter(|last| last.places.end == piece.places.start && last.samples == piece.samples) {
+            Some(last) => last.places.end = piece.places.end,
+            None => pieces.push(piece),
+        }
+    }
+    pieces
+}
+
 /// Of each slot of a batch what all groups have brought, in the film's least units.
 type Totals = Vec<[i128; 3]>;
 
 /// Adds what a group, of so many, has brought to the samples of a batch.
 fn add_group([group, count]: [usize; 2], cells: &Cells<'_>, totals: &mut Totals, batch: &mut Batch) {
-    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
-        let slots = slots_of_block(first);
-        cells.each(&batch.pixels, slots.start, |tile, common| {
+    for slots in runs(&batch.items).map(|run| slots_of(&run)) {
+        cells.each(&batch.pixels, slots.clone(), |tile, common| {
             let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
             let left_out = tile.add_group((group, count), samples, common, &mut totals[slots.clone()]);
             batch.counters.dropped += left_out.dropped;
@@ -416,9 +464,8 @@ fn add_group([group, count]: [usize; 2], cells: &Cells<'_>, totals: &mut Totals,
 /// asked where none is wanted.
 fn clamp_samples(limit: f64, cells: &Cells<'_>, batch: &mut Batch) {
     let start = Instant::now();
-    for first in (0..batch.items.len()).step_by(QUARTERS as usize) {
-        let slots = slots_of_block(first);
-        cells.each(&batch.pixels, slots.start, |tile, common| {
+    for slots in runs(&batch.items).map(|run| slots_of(&run)) {
+        cells.each(&batch.pixels, slots.clone(), |tile, common| {
             let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots.clone()]);
             tile.clamp(limit, samples, common);
         });

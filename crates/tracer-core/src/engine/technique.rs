@@ -55,6 +55,8 @@ pub struct OnFilm<'a, 'b> {
     pub half: usize,
     /// The light group that it is of, and how many there are.
     pub group: Option<[usize; 2]>,
+    /// The quarter of its sample index's light that comes at this moment, where something moves; else it is all of it.
+    pub quarter: Option<u32>,
 }
 
 /// A way to find light. Whether it is at work depends on scene and settings alone, and so does all that it does: the
@@ -77,12 +79,6 @@ pub trait Technique: Send + Sync {
 
     /// After the last vertex of a batch.
     fn after_batch(&self, _: Engine<'_>, _: Pass<'_>, _: &mut Batch) {}
-
-    /// The sample index at which is made what it works with at this one. Where the scene moves, that is made of the
-    /// scene as the former sees it.
-    fn made_at(&self, sample: u32) -> u32 {
-        sample
-    }
 
     /// What it was made ready with, for the technique of its name at the next moment of a scene that moves: there are
     /// new ones for each.

@@ -5,6 +5,7 @@
 
 use super::state::Keeper;
 use super::{Crop, Film, TILE, Tile};
+use std::ops::Range;
 use std::sync::{Mutex, MutexGuard};
 use tracer_kernels::sampling::blocks::{BLOCK_PIXELS, Pixels};
 use tracer_kernels::sampling::sampler::z_order;
@@ -98,13 +99,12 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Does a work for each tile that has pixels in common with the block whose slots begin at `first`; what it is
-    /// given tells them: slot of the block, and place in the tile.
-    pub fn each(&self, pixels: &Pixels, first: usize, mut work: impl FnMut(&mut Tile, &[[u8; 2]])) {
+    /// Does a work for each tile that has pixels in common with the block, or part of one, that has these slots; what
+    /// it is given tells them: slot counted from the first, and place in the tile.
+    pub fn each(&self, pixels: &Pixels, slots: Range<usize>, mut work: impl FnMut(&mut Tile, &[[u8; 2]])) {
         let Crop { x: left, y: top, width, height } = self.crop;
         // By the lowest bits of the tile's column and row: a block lies within two by two tiles.
         let (mut common, mut lens, mut places) = ([[[0; 2]; BLOCK_PIXELS]; 4], [0; 4], [0; 4]);
-        let slots = first..first + BLOCK_PIXELS;
         let of_slots = pixels.x[slots.clone()].iter().zip(&pixels.y[slots.clone()]).zip(&pixels.z[slots]);
         for (k, ((&x, &y), &z)) in of_slots.enumerate() {
             let (x, y) = (x as i32 as u32, y as i32 as u32);
@@ -152,7 +152,7 @@ mod tests {
             pixels.find(&items.collect::<Vec<_>>());
             let at = |slot: usize| [pixels.x[slot] as i64, pixels.y[slot] as i64];
             let mut met = 0;
-            Cells::new(&mut film, None).each(&pixels, 256, |tile, common| {
+            Cells::new(&mut film, None).each(&pixels, 256..512, |tile, common| {
                 met += common.len();
                 for &[k, place] in common {
                     let [x, y] = at(256 + usize::from(k)).map(|x| x as u32);

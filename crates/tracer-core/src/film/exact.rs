@@ -63,8 +63,11 @@ impl Sums {
 
     /// Mean of a pixel over so many samples.
     #[inline]
-    pub fn mean(&self, pixel: usize, samples: u32) -> [f64; 3] {
-        let n = f64::from(samples.max(1));
+    pub fn mean(&self, pixel: usize, samples: impl Into<f64>) -> [f64; 3] {
+        let n = match samples.into() {
+            n if n > 0.0 => n,
+            _ => 1.0,
+        };
         // Written out: `map` is not always inlined.
         let mean = |c: usize| self.0[pixel][c] as f64 * LEAST / n;
         [mean(0), mean(1), mean(2)]

@@ -212,10 +212,11 @@ impl Film {
         // many, and what was merged does not know its indices.
         let light = match &self.unfinished {
             Some(_) => {
-                let second = second_of(self.first()..self.light_samples.max(self.first()));
+                let second = f64::from(second_of(self.first()..self.light_samples.max(self.first())));
+                let second = second + if half_of(self.light_samples) == 1 { self.light_of_quarters() } else { 0.0 };
                 [self.light_count() - second, second]
             }
-            None => samples,
+            None => samples.map(f64::from),
         };
         if samples.contains(&0) {
             return None;
@@ -227,9 +228,9 @@ impl Film {
                 tile.splats.as_ref().map_or(0, |splats| splats.sums.of(c, pixel)),
                 half.splats.as_ref().map_or(0, |splats| splats.of(c, pixel)),
             );
-            let over = |sum: i128, count: u32| sum as f64 * LEAST / f64::from(count.max(1));
+            let over = |sum: i128, count: f64| sum as f64 * LEAST / if count > 0.0 { count } else { 1.0 };
             let of = usize::from(second);
-            (over(sum, samples[of]) + over(splats, light[of])) * self.unit
+            (over(sum, f64::from(samples[of])) + over(splats, light[of])) * self.unit
         };
         Some([false, true].map(|second| [0, 1, 2].map(|c| mean(second, c))))
     }

@@ -7,6 +7,7 @@ use super::{Crop, Film, FilmGroups, FilmLayer, MattesKept, Octave, Part, Piece, 
 use std::ops::RangeInclusive;
 use tracer_kernels::layers::Kept;
 use tracer_kernels::report::{Costs, Counters};
+use tracer_kernels::sampling::blocks::QUARTERS;
 
 /// No tile's record is longer than this, but for mattes and light groups.
 const LONGEST_TILE: u32 = 1 << 18;
@@ -42,7 +43,7 @@ pub struct FilmHead {
     pub(super) caustics: bool,
     pub(super) layers: Vec<SavedLayer>,
     pub(super) halves: bool,
-    pub(super) of_moments: bool,
+    pub(super) moments: u32,
     pub(super) backdrop: bool,
     pub(super) mattes: MattesKept,
     pub(super) groups: FilmGroups,
@@ -72,7 +73,7 @@ impl FilmHead {
             caustics: film.caustics,
             layers: film.layers.iter().map(|layer| layer.saved()).collect(),
             halves: film.halves,
-            of_moments: film.of_moments,
+            moments: film.moments,
             backdrop: film.backdrop,
             mattes: film.mattes,
             groups: film.groups.clone(),
@@ -96,8 +97,8 @@ impl FilmHead {
         let whole = *self.samples.start();
         let mut numbers = vec![self.size[0], self.size[1], x, y, width, height, self.seed];
         numbers.push(self.clamp.map_or(0, f32::to_bits));
-        numbers.extend([self.reuse, self.caustics, self.halves, self.of_moments, self.backdrop].map(u32::from));
-        numbers.push(self.mattes.bits());
+        numbers.extend([self.reuse, self.caustics, self.halves, self.backdrop].map(u32::from));
+        numbers.extend([self.mattes.bits(), self.moments]);
         numbers.extend([whole, *self.samples.end(), self.light_samples, self.octave.samples]);
         let (end, pieces) = self.unfinished.as_ref().map_or((0, &[][..]), |rest| (rest.end, &rest.pieces[..]));
         numbers.extend([end, pieces.len() as u32]);
@@ -137,8 +138,9 @@ impl FilmHead {
         let crop = Crop { x: next()?, y: next()?, width: next()?, height: next()? };
         let (seed, clamp) = (next()?, f32::from_bits(next()?));
         let [reuse, caustics] = [next()? != 0, next()? != 0];
-        let [halves, of_moments, backdrop] = [next()? != 0, next()? != 0, next()? != 0];
+        let [halves, backdrop] = [next()? != 0, next()? != 0];
         let mattes = MattesKept::from_bits(next()?)?;
+        let moments = next()?;
         let samples = next()?..=next()?;
         let (light_samples, of_octave, end, count) = (next()?, next()?, next()?, next()?);
         let mut pieces = Vec::new();
@@ -185,7 +187,7 @@ impl FilmHead {
             caustics,
             layers,
             halves,
-            of_moments,
+            moments,
             backdrop,
             mattes,
             groups,
@@ -216,6 +218,7 @@ impl FilmHead {
             && (self.unit > 0.0 && self.unit.is_normal())
             && self.layers.iter().flat_map(|layer| layer.units).all(f64::is_finite)
             && rest
+            && matches!(self.moments, 0 | 1 | QUARTERS)
             && self.samples.end() >= self.samples.start()
             && *self.samples.end() <= end
             && self.light_samples <= end

@@ -5,9 +5,10 @@ use super::exact::{LARGEST, LEAST, fixed};
 use super::pack::{pack, unpack};
 use super::{Crop, Film, PIXELS, Tile};
 use rayon::prelude::*;
+use std::ops::Range;
 use tracer_kernels::layers::Layer;
 use tracer_kernels::layers::{FilmNumber, Kept, LayerSamples, LayerSet, Pixel, Units, definition, units};
-use tracer_kernels::sampling::blocks::{ITEM_PIXELS, slots_of_block};
+use tracer_kernels::sampling::blocks::ITEM_PIXELS;
 use tracer_kernels::scene::Scene;
 
 /// What a tile holds for its layers.
@@ -129,24 +130,23 @@ impl TileLayers {
     }
 }
 
-/// Whether the camera ray of a sample of the block whose first item this is has hit something.
+/// Whether the camera ray of a slot has hit something.
 #[inline(always)]
-pub(crate) fn is_hit(samples: &LayerSamples, first: usize, k: usize) -> bool {
-    samples.hits[first + k / ITEM_PIXELS] >> (k % ITEM_PIXELS) & 1 != 0
+pub(crate) fn is_hit(samples: &LayerSamples, slot: usize) -> bool {
+    samples.hits[slot / ITEM_PIXELS] >> (slot % ITEM_PIXELS) & 1 != 0
 }
 
 impl Tile {
-    /// Adds what the camera rays of the block whose first item this is hit first; `pixels` are those of [`Tile::add`].
+    /// Adds what the camera rays of a block's slots hit first; `pixels` are those of [`Tile::add`].
     #[inline]
-    pub(crate) fn add_layers(&mut self, samples: &LayerSamples, first: usize, pixels: &[[u8; 2]]) {
+    pub(crate) fn add_layers(&mut self, samples: &LayerSamples, slots: &Range<usize>, pixels: &[[u8; 2]]) {
         if samples.sums.is_empty() && samples.nearest.is_empty() {
             return;
         }
         let layers = self.layers.get_or_insert_with(|| Box::new(TileLayers::new(samples.kept())));
-        let slots = slots_of_block(first);
         let pixels = || pixels.iter().map(|&[k, pixel]| (usize::from(k), usize::from(pixel)));
         for (k, pixel) in pixels() {
-            layers.hits[pixel] += u32::from(is_hit(samples, first, k));
+            layers.hits[pixel] += u32::from(is_hit(samples, slots.start + k));
         }
         for (sums, column) in layers.sums.iter_mut().zip(&samples.sums) {
             let column = &column[slots.clone()];

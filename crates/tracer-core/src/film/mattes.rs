@@ -3,8 +3,8 @@
 //! in the end only, and of parts only when they are merged.
 
 use super::{Film, PIXELS, Tile};
+use std::ops::Range;
 use tracer_kernels::layers::{Layer, LayerSamples, LayerSet};
-use tracer_kernels::sampling::blocks::slots_of_block;
 
 /// What mattes a film keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -177,20 +177,20 @@ pub(super) fn longest_record(kept: MattesKept, samples: u32) -> u64 {
 }
 
 impl Tile {
-    /// Counts what the camera rays of the block whose first item this is hit first; `pixels` are those of
-    /// [`Tile::add`], `layers` those whose samples these are.
+    /// Counts what the camera rays of a block's slots hit first; `pixels` are those of [`Tile::add`], `layers` those
+    /// whose samples these are.
     pub(crate) fn add_mattes(
         &mut self,
         kept: MattesKept,
         layers: LayerSet,
         samples: &LayerSamples,
-        first: usize,
+        slots: &Range<usize>,
         pixels: &[[u8; 2]],
     ) {
         let mattes = self.mattes.get_or_insert_with(|| Box::new(TileMattes::new(kept)));
         for (of, matte) in kept.iter().zip(&mut mattes.0) {
             let Some(column) = samples.nearest.get(of.column(layers)) else { continue };
-            let column = &column[slots_of_block(first)];
+            let column = &column[slots.clone()];
             for &[k, pixel] in pixels {
                 // Zero is nothing, or what has no material.
                 let number = column[usize::from(k)];

@@ -321,7 +321,7 @@ fn empty(head: &FilmHead, of: Crop) -> Result<Film, MergeError> {
         film.tiles.iter_mut().for_each(Tile::keep_taken);
     }
     (film.crop, film.tile_columns) = (of, across);
-    (film.reuse, film.caustics, film.of_moments) = (head.reuse, head.caustics, head.of_moments);
+    (film.reuse, film.caustics, film.moments) = (head.reuse, head.caustics, head.moments);
     film.keep_halves(head.halves);
     film.keep_backdrop(head.backdrop);
     film.keep_mattes(head.mattes);

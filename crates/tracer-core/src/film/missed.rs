@@ -15,13 +15,13 @@ impl Tile {
         &mut self,
         samples: impl Samples,
         layers: &LayerSamples,
-        first: usize,
+        first_slot: usize,
         pixels: &[[u8; 2]],
         half: usize,
     ) {
         for &[k, pixel] in pixels {
             let (k, pixel) = (usize::from(k), usize::from(pixel));
-            if is_hit(layers, first, k) {
+            if is_hit(layers, first_slot + k) {
                 continue;
             }
             let Some(sample) = samples.whole(k).filter(|&sample| sample != [0; 3]) else { continue };

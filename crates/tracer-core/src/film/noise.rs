@@ -182,7 +182,7 @@ impl Film {
         let of_samples = ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0);
         // Light paths come one by one: the variance of such a sum is about the sum of squares.
         let splats = tile.splats.as_ref().map_or(0.0, |splats| splats.squares.of(pixel));
-        let passes = f64::from(self.light_count().max(1));
+        let passes = if self.light_count() > 0.0 { self.light_count() } else { 1.0 };
         let of_light = splats / (passes * passes);
         (of_samples + of_light) * self.unit * self.unit
     }
@@ -208,7 +208,7 @@ impl Film {
             self.pixels().map(variance).sum::<f64>() / self.count()
         };
         let variance = match self.seen_variance() {
-            Some((seen, pixels)) if pixels >= FEW && !self.of_moments => seen,
+            Some((seen, pixels)) if pixels >= FEW && self.moments == 0 => seen,
             Some((seen, _)) => seen.max(independent()),
             None => independent(),
         };
@@ -270,7 +270,7 @@ impl Film {
                 (last, factor) = (n, self.octave.of_more(n.saturating_sub(samples), rate));
             }
             // Light paths of other indices than the samples': of a pass that was ended early.
-            let is_apart = tile.splats.is_some() && light != n;
+            let is_apart = tile.splats.is_some() && light != f64::from(n);
             match factor.filter(|_| !is_apart) {
                 Some(factor) => {
                     // From the mean of all to that of those which came after.
@@ -288,7 +288,7 @@ impl Film {
 
 impl Tile {
     /// Mean luminance of a pixel in the sums' own unit, with what the light paths of so many sample indices brought.
-    fn luminance(&self, pixel: usize, light: u32) -> f64 {
+    fn luminance(&self, pixel: usize, light: f64) -> f64 {
         let of_light = self.splats.as_ref().map_or(0.0, |splats| luminance(splats.sums.mean(pixel, light)));
         luminance(self.sums.mean(pixel, self.samples[pixel])) + of_light
     }

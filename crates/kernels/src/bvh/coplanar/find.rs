@@ -46,13 +46,14 @@ const CELLS: [f64; 4] = [1.0 / 262_144.0, 1.0 / 8192.0, 1.0 / 256.0, 1.0 / 8.0];
 const ROOM: f64 = 16.0;
 
 /// A triangle of the scene, in render space.
+#[derive(Clone)]
 pub(super) struct Face {
     primitive: u32,
     pub(super) instance: u32,
     /// Which of a shape's flat parts.
     part: u8,
-    /// What it is half of the square about.
-    pub(super) curved: Option<FlatFace>,
+    /// What it is half of the square about. Few faces have it, and it is as large as all the rest.
+    pub(super) curved: Option<Box<FlatFace>>,
     /// To the outside of its body; `None`: it bounds none.
     pub(super) outward: Option<DVec3>,
     material: Option<u32>,
@@ -79,7 +80,7 @@ impl Face {
 
     /// Whether it is a plane without an end.
     pub(super) fn is_endless(&self) -> bool {
-        self.curved.is_some_and(|face| face.is_endless())
+        self.curved.as_ref().is_some_and(|face| face.is_endless())
     }
 
     /// The least wins.
@@ -111,13 +112,9 @@ impl Face {
 impl Coplanar {
     /// Those of a scene, if it has any.
     pub fn find(geometry: &Geometry, ranks: &Ranks) -> Option<Self> {
-        let mut faces = faces(geometry, ranks);
+        let faces = faces(geometry, ranks);
         let scene = faces.iter().map(|face| face.reach).fold(0.0, f64::max);
-        let order = |face: &Face| (face.narrow, face.id());
-        faces.par_sort_by(|a, b| {
-            let doubt = a.narrow.cmp(&b.narrow).then(a.doubt(scene).total_cmp(&b.doubt(scene)));
-            doubt.then(order(a).cmp(&order(b)))
-        });
+        let mut faces = sorted(faces, scene, geometry.planes.len());
         let flat = faces.partition_point(|face| !face.narrow);
         let same = Same::of(&faces[..flat]);
         let mut pairs = pairs_in(planes(&faces[..flat], scene, &same), &faces);
@@ -126,6 +123,18 @@ impl Coplanar {
         pairs.sort_unstable_by_key(|pair| (pair.0, pair.1));
         if pairs.is_empty() { None } else { Some(of_pairs(geometry, &faces, &pairs, &same)) }
     }
+}
+
+/// Those with a plane first, the best known ones before the others; with room for so many planes behind them.
+fn sorted(faces: Vec<Face>, scene: f64, planes: usize) -> Vec<Face> {
+    // Of a number that is not below zero the bits rise with it. Keys are sorted, not faces, which are ten times as
+    // large.
+    let key = |(k, face): (usize, &Face)| (face.narrow, face.doubt(scene).to_bits(), face.id(), k as u32);
+    let mut order: Vec<_> = faces.par_iter().enumerate().map(key).collect();
+    order.par_sort_unstable();
+    let mut sorted = Vec::with_capacity(order.len() + planes);
+    sorted.par_extend(order.into_par_iter().map(|(.., k)| faces[k as usize].clone()));
+    sorted
 }
 
 /// The id of the scene's first triangle.
@@ -168,19 +177,26 @@ fn looked_at(geometry: &Geometry, ranks: &Ranks) -> Vec<bool> {
 fn faces(geometry: &Geometry, ranks: &Ranks) -> Vec<Face> {
     let looked_at = looked_at(geometry, ranks);
     let first = first_primitive(geometry);
-    let of_instance = |index: usize| {
+    // Per instance that is looked at, the number of its first triangle among all of them.
+    let (mut starts, mut count) = (Vec::new(), 0usize);
+    for (index, instance) in geometry.instances.iter().enumerate() {
+        if looked_at[instance.mesh as usize] && !LeftOut::holds(geometry.left_out.instances, index) {
+            starts.push((count, index));
+            count += geometry.meshes[instance.mesh as usize].triangles.len();
+        }
+    }
+    let triangle = |number: usize| {
+        let (start, index) = starts[starts.partition_point(|start| start.0 <= number) - 1];
         let instance = &geometry.instances[index];
-        let mesh = &geometry.meshes[instance.mesh as usize];
-        let left_out = LeftOut::holds(geometry.left_out.instances, index);
-        let triangles = if looked_at[instance.mesh as usize] && !left_out { mesh.triangles } else { &[] };
-        (0u32..).zip(triangles).filter_map(move |(k, triangle)| {
-            let corners = triangle.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
-            let id = (mesh.first_primitive + k, index as u32);
-            let material = ranks.materials.as_ref().and_then(|of| of.of(id.0 - first, id.1));
-            face(corners, instance.placement, id, ranks.of(id.0 - first, id.1)).map(|face| Face { material, ..face })
-        })
+        let (mesh, k) = (&geometry.meshes[instance.mesh as usize], number - start);
+        let corners = mesh.triangles[k].map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+        let id = (mesh.first_primitive + k as u32, index as u32);
+        let material = ranks.materials.as_ref().and_then(|of| of.of(id.0 - first, id.1));
+        face(corners, instance.placement, id, ranks.of(id.0 - first, id.1)).map(|face| Face { material, ..face })
     };
-    let mut faces: Vec<Face> = (0..geometry.instances.len()).into_par_iter().flat_map_iter(of_instance).collect();
+    // Where as many are known to come nothing grows, and what is none is taken out in place.
+    let found: Vec<Option<Face>> = (0..count).into_par_iter().map(triangle).collect();
+    let mut faces: Vec<Face> = found.into_iter().flatten().collect();
     if geometry.shapes.len() <= MOST_SHAPES {
         let shapes = (0..).zip(geometry.shapes);
         let shapes = shapes.filter(|(k, _)| !LeftOut::holds(geometry.left_out.shapes, *k as usize));
@@ -199,7 +215,7 @@ fn of_shape(geometry: &Geometry, ranks: &Ranks, k: u32, row: &Row) -> impl Itera
         let half = move |corners| face(corners, None, id, rank);
         [half([a, b, c]), half([a, c, d])].into_iter().flatten().map(move |face| Face {
             part,
-            curved: Some(curved),
+            curved: Some(Box::new(curved)),
             outward: curved.outward(),
             material,
             ..face
@@ -221,7 +237,7 @@ fn in_planes(geometry: &Geometry, ranks: &Ranks, faces: &mut Vec<Face>, same: &S
             primitive: geometry.first_shape + k as u32,
             instance: NONE,
             part: 0,
-            curved: Some(curved),
+            curved: Some(Box::new(curved)),
             outward: None,
             material: ranks.materials.as_ref().and_then(|of| of.shapes.get(k)).copied(),
             corners: [normal * offset; 3],
@@ -418,9 +434,9 @@ fn of_pairs(geometry: &Geometry, faces: &[Face], pairs: &[(u32, u32, f64)], same
         members.push(Member {
             primitive: face.primitive,
             instance: face.instance,
-            outline: match face.curved {
+            outline: match face.curved.as_deref() {
                 None => Outline::Triangle(face.corners.map(|corner| corner.as_vec3().to_array())),
-                Some(curved) => Outline::Curved(curved),
+                Some(curved) => Outline::Curved(*curved),
             },
             normal: face.normal.as_vec3().to_array(),
             winners: [begin, winners.len() as u32],

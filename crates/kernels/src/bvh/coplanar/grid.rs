@@ -14,7 +14,8 @@ const SPREAD: usize = 16;
 /// the point where a ray meets the plane is known so well unless the ray hardly leaves it.
 pub(super) fn grid(face: &Face, list: &[u32], faces: &[Face], named: &[u32]) -> Grid {
     let axes = other_axes(face.normal);
-    let corners_of = |face: &Face| face.curved.map_or(face.corners.to_vec(), |curved| curved.corners().to_vec());
+    let corners_of =
+        |face: &Face| face.curved.as_ref().map_or(face.corners.to_vec(), |curved| curved.corners().to_vec());
     let others = || list.iter().map(|&member| &faces[named[member as usize] as usize]);
     let spanned: Vec<DVec3> = match face.is_endless() {
         true => others().flat_map(corners_of).collect(),

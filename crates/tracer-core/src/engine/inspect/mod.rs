@@ -14,9 +14,9 @@ pub use told::{
     VertexTold, Whole,
 };
 
-use super::RenderOptions;
 use super::passes::Painter;
 use super::technique::Engine;
+use super::{RenderOptions, quarter_of};
 use crate::film::{Crop, Part};
 use crate::scene::Scene;
 use tracer_kernels::engine::batch::Batch;
@@ -60,18 +60,20 @@ pub fn inspect(scene: &Scene, options: &RenderOptions, pixel: [u32; 2], sample: 
     let crop = Crop { x: pixel[0], y: pixel[1], width: 1, height: 1 };
     let part = Part { crop, first: sample, end: sample + 1, of_crop: crop, of_samples: sample + 1 };
     let kernels = Kernels::new(options.level.unwrap_or_else(Level::best));
-    let now = scene.at_sample(sample, options.seed.unwrap_or(scene.seed)).transpose().ok()?;
+    let seed = options.seed.unwrap_or(scene.seed);
+    let quarter = quarter_of(scene, pixel, sample, seed);
+    let now = scene.at_sample(sample, quarter, seed).transpose().ok()?;
     let engine = Engine::new(now.as_ref().unwrap_or(scene), &kernels);
     let all = RenderOptions { part: Some(part), layers: Some(LayerSet::default()), ..*options };
     let plain = RenderOptions { reuse: Some(false), caustics: Some(false), ..all };
     let path = path::follow(engine, &plain, pixel, sample)?;
-    let whole = whole::explain(engine, scene, &all, pixel, sample)?;
+    let whole = whole::explain(engine, (scene, quarter), &all, pixel, sample)?;
     Some(Inspection { pixel, sample, path, whole })
 }
 
 /// Makes a batch's items those of the block that holds a pixel; gives the pixel's slot.
 fn fill(painter: &Painter<'_>, pixel: [u32; 2], sample: u32, batch: &mut Batch) -> Option<usize> {
-    for place in 0..painter.grid.len() as u32 {
+    for place in painter.places_now() {
         painter.fill(&(place..place + 1), sample..sample + 1, batch);
         painter.lightings[0].mark(batch);
         batch.pixels.find(&batch.items);

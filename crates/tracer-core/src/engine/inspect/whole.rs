@@ -74,10 +74,11 @@ fn shared(slot: u32, batch: &Batch) -> Option<Shared> {
 }
 
 /// Explains it; the outer `None`: there is no such pixel; the inner: no technique is at work.
-/// `whole`: the scene as the shutter opens, of which the engine's is what the sample sees.
+/// `whole`: the scene as the shutter opens, of which the engine's is what the sample sees, and the quarter that it is of
+/// where something moves. Of light paths, a fourth of those of the sample index come at its moment.
 pub fn explain(
     engine: Engine<'_>,
-    whole: &Scene,
+    (whole, quarter): (&Scene, Option<u32>),
     options: &RenderOptions,
     pixel: [u32; 2],
     sample: u32,
@@ -86,10 +87,12 @@ pub fn explain(
     let threads = if options.threads == 0 { super::super::available_threads() } else { options.threads };
     let pool = Pool::new(threads, false);
     let mut film = new_film(scene, options);
+    film.moments = whole.moments_of_sample();
     let mut painter = painter(engine, &[], options, &film, sample + 1, &pool, &Unobserved);
     if painter.lightings[0].techniques.is_empty() {
         return Some(None);
     }
+    painter.quarter = quarter;
     if whole.moves() {
         let work = Work {
             options,
@@ -102,10 +105,13 @@ pub fn explain(
             goals: Goals::new(scene, options, &film),
             keeper: None,
         };
-        handed_before(whole, engine.kernels, &film, &work, sample).ok()?.give(&mut painter);
+        handed_before(whole, engine.kernels, &film, &work, (sample, quarter)).ok()?.give(&mut painter);
     }
     painter.prepare(&(sample..sample + 1));
     film.unfinished = painter.paint(&mut film, sample..sample + 1, None);
+    if quarter.is_some() {
+        (film.unfinished, film.light_samples) = (None, sample + 1);
+    }
     let lighting = &painter.lightings[0];
     let pass = lighting.pass(painter.plain);
     let mut batch = Batch::new();

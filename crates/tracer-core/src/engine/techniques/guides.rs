@@ -54,6 +54,24 @@ fn first_of(stage: u32) -> u32 {
     stage.checked_sub(1).map_or(0, |k| 1 << k)
 }
 
+/// Photons of the first guide: they go by the size of the picture.
+fn first_photons(scene: &Scene) -> u32 {
+    let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
+    (pixels / 4).next_power_of_two().clamp(1024, 65536) as u32
+}
+
+/// The guide of a sample index, where the first has so many photons.
+fn stage_with(first: u32, sample: u32) -> u32 {
+    let largest = (MOST_PHOTONS / first).ilog2() + 1;
+    stage_of(sample).min(largest)
+}
+
+/// The sample index at which the guide of this one is made. Where the scene moves, it is made of the scene as the
+/// former sees it, whether or not there is a way for photons at this moment.
+pub fn made_at(scene: &Scene, sample: u32) -> u32 {
+    first_of(stage_with(first_photons(scene), sample))
+}
+
 /// Guides, where photons are wanted and have a way to go.
 pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
     let plan = trial.plan.clone()?;
@@ -67,16 +85,14 @@ impl Guides {
         for caster in Casters::new(scene, MOST_CASTERS).list.iter().take(MOST_CASTERS) {
             casters.push(caster.center.as_vec3().to_array(), caster.radius as f32, 1.0);
         }
-        let pixels = u64::from(scene.size[0]) * u64::from(scene.size[1]);
-        let first = (pixels / 4).next_power_of_two().clamp(1024, 65536) as u32;
+        let first = first_photons(scene);
         let guide = Guide { cells: Cells::default(), casters };
         Guides { plan, seed, first, more: None, stage: u32::MAX, guide, is_of_stage: false }
     }
 
     /// The guide of a sample index.
     fn stage(&self, sample: u32) -> u32 {
-        let largest = (MOST_PHOTONS / self.first).ilog2() + 1;
-        stage_of(sample).min(largest)
+        stage_with(self.first, sample)
     }
 }
 
@@ -110,10 +126,6 @@ impl Technique for Guides {
             cells
         });
         (self.stage, self.is_of_stage) = (stage, samples.start == first_of(stage));
-    }
-
-    fn made_at(&self, sample: u32) -> u32 {
-        first_of(self.stage(sample))
     }
 
     /// The cells: photons cost too much for a sample each, and a guide only says where to look. One that was not made

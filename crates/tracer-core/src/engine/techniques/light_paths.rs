@@ -16,6 +16,7 @@ use tracer_kernels::engine::light_paths::LightPaths;
 use tracer_kernels::engine::pass::{Pass, PhotonPass};
 use tracer_kernels::engine::pool::Pool;
 use tracer_kernels::report::Stage;
+use tracer_kernels::sampling::blocks::QUARTERS;
 use tracer_kernels::scene::Scene;
 
 /// The light paths of a rendering.
@@ -51,11 +52,11 @@ impl Technique for OfRendering {
         let pass = LightPass { seed: *seed, plan: &self.plan, light_paths: &self.light_paths, guide };
         // Batches of full length, whichever sample index their paths are of.
         let count = samples.end - samples.start;
-        let batches = batches(shares.iter().map(|share| Share {
-            first: share.count.wrapping_mul(samples.start),
-            count: share.count * count,
-            ..*share
-        }));
+        let of_samples = |share: &Share| {
+            let all = Share { first: share.count.wrapping_mul(samples.start), count: share.count * count, ..*share };
+            film.quarter.map_or(all, |quarter| quarter_of(all, quarter))
+        };
+        let batches = batches(shares.iter().map(of_samples));
         pool.each(batches.len(), |k, batch| {
             batch.watch.resume();
             let start = Instant::now();
@@ -63,6 +64,13 @@ impl Technique for OfRendering {
             batch.watch.costs.photons_since(start);
         });
     }
+}
+
+/// A quarter of what a share has: the quarters are all of it.
+fn quarter_of(share: Share, quarter: u32) -> Share {
+    let [from, to] =
+        [quarter, quarter + 1].map(|k| (u64::from(share.count) * u64::from(k) / u64::from(QUARTERS)) as u32);
+    Share { first: share.first.wrapping_add(from), count: to - from, ..share }
 }
 
 /// Follows a batch of light paths.

@@ -6,6 +6,9 @@ mod light_paths;
 mod photons;
 mod reuse;
 
+/// The sample index at which is made what techniques hand on to this one, where the scene moves.
+pub use guides::made_at;
+
 use super::options::RenderOptions;
 use super::technique::{Engine, Technique};
 use crate::film::Crop;

@@ -14,7 +14,7 @@ use scene_format::desc::Integrator;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use tracer_core::{Inspection, LightOf, RenderOptions, Scene, inspect, object_name};
+use tracer_core::{Inspection, LightOf, RenderOptions, Scene, inspect, object_name, quarter_of};
 
 /// A sample, explained, and what is needed to call things by their names.
 struct Explained {
@@ -56,7 +56,7 @@ pub(super) fn run(args: &InspectArgs, shell: &Shell) -> Result<ExitCode, Failure
     spare_inputs(args, &scene.files)?;
     let options = RenderOptions { level: Some(level), ..RenderOptions::default() };
     let seed = options.seed.unwrap_or(scene.seed);
-    if let Some(Err(faults)) = scene.at_sample(args.sample, seed) {
+    if let Some(Err(faults)) = scene.at_sample(args.sample, quarter_of(&scene, args.pixel, args.sample, seed), seed) {
         shell.diagnostics(&faults, &desc.sources, args.scene.diagnostics);
         return Err(Failure::WrongScene);
     }
