@@ -840,7 +840,6 @@ class Emissive(TypedDict, total=False):
 Object = Either["SphereItem", "PlaneItem", "RectangleItem", "BoxItem", "DiskItem", "CylinderItem", "ConeItem", "CapsuleItem", "LatheItem", "ExtrudeItem", "TubeItem", "TorusItem", "ArrowItem", "HeightFieldItem", "PolygonItem", "MeshItem", "UnionItem", "IntersectionItem", "DifferenceItem", "GroupItem", "IncludeItem"]
 
 class _SphereRequired(TypedDict):
-    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
     radius: Either[float, str, PickItem]
 
 
@@ -856,6 +855,7 @@ class Sphere(_SphereRequired, total=False):
     name: What it is called: `--set objects.NAME.FIELD=2` finds it where no other has this name.
     """
 
+    center: Either[Sequence[Either[float, str]], Array, str, PickItem]
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]

@@ -147,7 +147,7 @@ fn the_comment_at_the_top_stays_at_the_top() {
 
 #[test]
 fn a_wrong_scene_is_not_converted() {
-    assert!(convert("s.ron", "Scene(objects: [Sphere(radius: 1)])", Syntax::Ron, Syntax::Toml).is_err());
+    assert!(convert("s.ron", "Scene(objects: [Sphere()])", Syntax::Ron, Syntax::Toml).is_err());
 }
 
 /// What the `ron` crate reads of a sphere, for comparison.

@@ -57,6 +57,12 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
     words.map(|words| syntax.of_toml(words))
 }
 
+/// A picture without a background, asked for as pages of the web do.
+pub(super) fn clear_background(name: &str, value: Item<'_, '_>) -> Option<&'static str> {
+    let is_clear = name == "background" && value.lexeme().to_ascii_lowercase().contains("transparent");
+    is_clear.then_some("the background is left out of the picture by `output: Output(alpha: true)`")
+}
+
 /// Where a field belongs that stands in the wrong group: `samples` in the image.
 pub(super) fn right_place(name: &str, def: &'static StructDef, item: Item<'_, '_>) -> Option<String> {
     let toml = item.syntax() == Syntax::Toml;

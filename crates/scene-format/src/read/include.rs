@@ -184,7 +184,14 @@ impl Reader<'_> {
         if let Some(why) = &file.fault {
             let fault = fault(format!("cannot include {shown}: {why}"), codes::INCLUDE)
                 .expected("a scene file; names start from the folder of the file that they stand in");
-            self.report(fault);
+            // A name without its ending, as modules have.
+            let is_bare = std::path::Path::new(text).extension().is_none();
+            let hint = is_bare
+                .then(|| format!("names have their ending: \"{shown}.{}\"", name.syntax().name().to_lowercase()));
+            self.report(match hint {
+                Some(hint) => fault.hint(hint),
+                None => fault,
+            });
             return None;
         }
         if let Some(first) = self.open.iter().position(|open| open.root == file.root) {

@@ -70,6 +70,11 @@ pub(super) const OBJECTS: Hints = &[
     (&["line", "lines", "segment", "polyline"], "a line has a thickness: `Tube(points: [..], radius: 0.02)`"),
     (&["point"], "a point is a small `Sphere`; a light without size is a small `SphereLight`"),
     (&["camera"], "the camera is the scene's `camera`, beside `objects`"),
+    (
+        &["if", "when", "switch", "choose", "random", "select"],
+        "what is there at times only: Repeat(count: \"=if(frame < 10, 1, 0)\", items: [..]); one of several: Pick(from: \
+         [..], index: 1)",
+    ),
     (&["volume", "fog", "medium", "smoke", "hair", "particles", "points"], "there is no such thing: surfaces only"),
 ];
 
@@ -106,6 +111,11 @@ pub(super) const MATERIALS: Hints = &[
         &["mix", "blend", "blendbsdf", "layered", "mixshader", "mix_shader"],
         "materials cannot be mixed, but colours can: Diffuse(albedo: Mix(a: .., b: ..)); `BlinnPhong` mixes a matt and \
          a glossy share",
+    ),
+    (
+        &["toon", "cel", "celshading", "wireframe", "wire", "outline", "sketch", "cartoon"],
+        "materials are surfaces, drawing styles are not: the layers `object_id`, `normal` and `depth` of an EXR tell \
+         another program where edges are",
     ),
     (&["pigment", "color", "rgb"], "a colour is the `albedo` of a material: Diffuse(albedo: (0.8, 0.2, 0.1))"),
     (&["null", "none", "invisible"], "leave the object out"),

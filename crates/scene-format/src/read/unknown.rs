@@ -165,7 +165,9 @@ impl Reader<'_> {
             return Meant::Field(field);
         }
         let syntax = item.syntax();
-        let way = other_way(name, def, syntax)
+        let way = hints::clear_background(name, value)
+            .map(Into::into)
+            .or_else(|| other_way(name, def, syntax))
             .or_else(|| field_of_others(name, def, syntax).map(Into::into))
             .or_else(|| right_place(name, def, item).map(Into::into));
         let unreadable = candidates.iter().find(free);

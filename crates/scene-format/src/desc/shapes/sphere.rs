@@ -11,7 +11,7 @@ scene_struct! {
     /// A sphere; an ellipsoid by `Scale` in `transform`.
     pub struct Sphere as "Sphere", "a sphere" {
         /// Centre.
-        center: Spanned<Vec3> => Rule::point();
+        center: Spanned<Vec3> = [0.0; 3] => Rule::point();
         /// Radius.
         radius: Spanned<f64> => Rule::length("a length");
         /// Its material, by name or written here; without one `Diffuse(albedo: 0.8)`.
