@@ -69,13 +69,13 @@ pub fn colours(image: &LayerImage, exposure: f64) -> Vec<u8> {
     let count = image.channels.len().max(1);
     let pixels = image.values.chunks_exact(count);
     match image.name {
-        "albedo" => bytes(pixels, |p| [0, 1, 2].map(|c| encoded(p[c].into()))),
-        "emission" => {
+        "albedo" | "denoising_albedo" => bytes(pixels, |p| [0, 1, 2].map(|c| encoded(p[c].into()))),
+        "emission" | "direct" | "indirect" => {
             let gain = libm::exp2(exposure);
             bytes(pixels, |p| [0, 1, 2].map(|c| encoded(f64::from(p[c]) * gain)))
         }
         // The usual colours of normal maps; where there is none it is black.
-        "normal" => bytes(pixels, |p| {
+        "normal" | "denoising_normal" => bytes(pixels, |p| {
             let none = p.iter().all(|&x| x == 0.0);
             [0, 1, 2].map(|c| if none { 0.0 } else { 0.5 + 0.5 * f64::from(p[c]) })
         }),

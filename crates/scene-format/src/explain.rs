@@ -143,7 +143,12 @@ fn explained(word: &str, pieces: &[Piece<'_>]) -> Option<String> {
             for [name, takes, default, means] in piece.lines.iter().filter_map(|line| row(line)) {
                 if name.eq_ignore_ascii_case(word) {
                     let of = called(piece.name);
-                    let _ = writeln!(out, "{apart}{name} of {of}: {takes}; {}.\n  {means}", said(&default));
+                    let told = format!("{name} of {of}: {takes}; {}.\n  {means}\n", said(&default));
+                    // Mappings of plane and of solid patterns have kinds of one name.
+                    if out.contains(&told) {
+                        continue;
+                    }
+                    out += &format!("{apart}{told}");
                     if let Some(line) = lines::field(&name, of) {
                         let _ = writeln!(out, "  As in: {line}");
                     }

@@ -352,6 +352,25 @@ struct JsonEdit<'d> {
     replacement: &'d str,
 }
 
+/// What is no diagnostic of a text, a file that is not there, say, as such an object: an error without a code and a
+/// place.
+pub fn json_error(message: &str) -> String {
+    let object = JsonDiagnostic {
+        severity: "error",
+        code: "",
+        message,
+        path: "",
+        place: None,
+        expected: "",
+        hint: "",
+        labels: Vec::new(),
+        elsewhere: None,
+        edit: None,
+    };
+    // As below.
+    serde_json::to_string(&object).unwrap_or_default()
+}
+
 /// All diagnostics as JSON, one object a line. Lines and columns count from 1 (columns in characters), bytes from 0;
 /// `end` is one past the last.
 pub fn json_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {

@@ -1,8 +1,9 @@
-//! `--show`: a layer as a picture. What is one number a pixel becomes a heat map, with a legend of its range; colours,
-//! directions and numbers of things look as the preview shows them.
+//! `--show`: a layer as a picture. What is one number a pixel becomes a heat map, with a legend of its range; light is
+//! developed as the picture is, so that layers of it can be compared; colours, directions and numbers of things look as
+//! the preview shows them.
 
 use crate::compare::magma;
-use tracer_core::{Image, LayerImage};
+use tracer_core::{Image, LayerImage, Look, develop_radiance};
 
 /// Rows below the picture for the legend.
 const LEGEND: usize = 28;
@@ -14,10 +15,17 @@ const ROOM: usize = 96;
 /// The numbers that the darkest and the brightest colour stand for.
 pub type Range = [f64; 2];
 
-/// The picture, so many pixels across, and what its colours stand for.
-pub fn picture(layer: &LayerImage, width: u32) -> (Image, Option<Range>) {
+/// Layers of light.
+const LIGHT: [&str; 3] = ["direct", "indirect", "emission"];
+
+/// The picture, so many pixels across and with the look of the scene's, and what its colours stand for.
+pub fn picture(layer: &LayerImage, width: u32, look: &Look) -> (Image, Option<Range>) {
     let across = (width as usize).max(1);
     let rows = layer.values.len() / layer.channels.len().max(1) / across;
+    if LIGHT.contains(&layer.name) {
+        let radiance: Vec<[f64; 3]> = layer.values.as_chunks::<3>().0.iter().map(|rgb| rgb.map(f64::from)).collect();
+        return (develop_radiance([across, rows].map(|side| side as u32), look, &radiance), None);
+    }
     let is_heat = layer.channels.len() == 1 && !layer.name.ends_with("_id");
     if !is_heat {
         let bytes = tracer_preview::layer_colours(layer, 0.0);
@@ -129,10 +137,26 @@ fn glyph(letter: char) -> [u8; DIGIT[1]] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scene_format::desc::ToneMap;
+    use tracer_core::Backdrop;
 
     fn heat(values: Vec<f32>, width: u32) -> (Image, Range) {
-        let (image, range) = picture(&LayerImage { name: "nodes", channels: &["Y"], values }, width);
+        let look = Look { exposure: 0.0, tone_map: ToneMap::None, backdrop: Backdrop::Background };
+        let (image, range) = picture(&LayerImage { name: "nodes", channels: &["Y"], values }, width, &look);
         (image, range.expect("it is one number"))
+    }
+
+    /// Light is as bright as in the picture, and what is grey is grey.
+    #[test]
+    fn light_is_developed_as_the_picture_is() {
+        let look = Look { exposure: 1.0, tone_map: ToneMap::None, backdrop: Backdrop::Background };
+        for name in LIGHT {
+            let values = vec![0.2, 0.2, 0.2, 0.1, 0.4, 0.05];
+            let (image, range) = picture(&LayerImage { name, channels: &["R", "G", "B"], values }, 2, &look);
+            let expected = [0.4, 0.4, 0.4, 0.2, 0.8, 0.1].map(|x| tracer_core::srgb_encode(x) as f32);
+            assert!(range.is_none() && (image.width, image.height) == (2, 1));
+            assert!(image.display.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3), "{:?}", image.display);
+        }
     }
 
     #[test]

@@ -26,9 +26,10 @@ pub mod write;
 
 pub use write::write;
 
-use args::{Cli, Command, When};
+use args::{Cli, Command, DiagnosticsForm, When};
 use clap::{ColorChoice, FromArgMatches};
 use failure::{Failure, exit};
+use scene_format::render::json_error;
 use shell::{Shell, Verbosity};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -65,10 +66,23 @@ pub fn main() -> ExitCode {
     let shell = Shell::new(cli.color, verbosity, cli.allow);
     commands::run(&cli.command, &shell, started).unwrap_or_else(|failure| {
         if let Failure::Wrong(error) | Failure::CouldNot(error) = &failure {
-            shell.error(error);
+            match form(&cli.command) {
+                DiagnosticsForm::Json => shell.say(&json_error(&format!("{error:#}"))),
+                _ => shell.error(error),
+            }
         }
         failure.exit_code()
     })
+}
+
+/// How a command tells what is wrong.
+fn form(command: &Command) -> DiagnosticsForm {
+    match command {
+        Command::Render(args) => args.scene.diagnostics,
+        Command::Info(args) => args.scene.diagnostics,
+        Command::Check(args) => args.diagnostics,
+        _ => DiagnosticsForm::Text,
+    }
 }
 
 /// `--color` for help and for faults of the command line itself, which end the reading of it.

@@ -29,6 +29,8 @@ pub struct Shell {
     pub verbosity: Verbosity,
     /// Warnings of which nothing is said.
     allowed: &'static [Code],
+    /// Warnings are told however little is said: they are what a command fails for.
+    denies: bool,
     /// Of a film: what was warned of already, and the frame at hand where it is not the first.
     told: Option<(&'static Told, Option<u32>)>,
 }
@@ -59,12 +61,17 @@ impl Shell {
         };
         // As long as the process.
         let allowed = Vec::leak(allowed);
-        Shell { color, terminal: terminal && !dumb, verbosity, allowed, told: None }
+        Shell { color, terminal: terminal && !dumb, verbosity, allowed, denies: false, told: None }
     }
 
     /// The same, but silent about warnings.
     pub fn without_warnings(&self) -> Self {
-        Shell { verbosity: Verbosity::Quiet, ..*self }
+        Shell { verbosity: Verbosity::Quiet, denies: false, ..*self }
+    }
+
+    /// The same for who fails because of warnings, or does not.
+    pub fn denying(&self, denies: bool) -> Self {
+        Shell { denies, ..*self }
     }
 
     /// The same for a film: what was warned of is not told again.
@@ -140,7 +147,7 @@ impl Shell {
     pub fn diagnostics(&self, diagnostics: &[Diagnostic], sources: &[Source], form: DiagnosticsForm) {
         let mut shown = diagnostics.to_vec();
         shown.retain(|diagnostic| !self.allowed.contains(&diagnostic.code));
-        if self.verbosity == Verbosity::Quiet {
+        if self.verbosity == Verbosity::Quiet && !self.denies {
             shown.retain(|diagnostic| diagnostic.severity == Severity::Error);
         }
         self.leave_out_told(&mut shown);

@@ -86,22 +86,35 @@ pub(crate) fn group(name: &str) -> Option<&'static str> {
     LINES.iter().find(|(of, _)| *of == name).map(|(_, line)| *line)
 }
 
-/// A field as it may be written, in the word that it belongs to, where an example has it; else in another.
+/// A field as it may be written in the word that it belongs to, where an example has it: in another word it may mean
+/// something else.
 pub(crate) fn field(name: &str, of: &str) -> Option<&'static str> {
     let all = || LINES.iter().copied().chain(snippets().map(|(_, kind, words)| (kind, words)));
-    let holds = |words: &'static str| around(words, name);
-    let own = all().filter(|(word, _)| *word == of).find_map(|(_, words)| holds(words));
-    own.or_else(|| all().find_map(|(_, words)| holds(words)))
+    let is_of_it = |words: &&str| words.strip_prefix(of).is_some_and(|rest| rest.starts_with('('));
+    let within = |words: &'static str| places(words, name).filter_map(move |at| around(words, at)).find(is_of_it);
+    // What stands in no brackets is a field of the scene, or as it is in whatever has it.
+    let bare =
+        |words: &'static str| places(words, name).filter_map(move |at| around(words, at)).find(|&it| it == words);
+    let own = || all().filter(|(word, _)| *word == of).find_map(|(_, words)| within(words).or_else(|| bare(words)));
+    own().or_else(|| all().find_map(|(_, words)| within(words))).or_else(|| all().find_map(|(_, words)| bare(words)))
 }
 
-/// The innermost `Name(..)` of a text that has a field, or the field's whole line.
-fn around(text: &'static str, field: &str) -> Option<&'static str> {
-    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
+/// Where a field stands in a text.
+fn places<'t>(text: &'t str, field: &'t str) -> impl Iterator<Item = usize> + use<'t> {
     let bytes = text.as_bytes();
-    let at = text.match_indices(field).map(|(at, _)| at).find(|&at| {
+    text.match_indices(field).map(|(at, _)| at).filter(move |&at| {
         let alone = at.checked_sub(1).is_none_or(|before| !is_word(bytes[before]) && bytes[before] != b'"');
         alone && bytes.get(at + field.len()) == Some(&b':')
-    })?;
+    })
+}
+
+fn is_word(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
+/// The innermost `Name(..)` of a text about a place, or the whole line.
+fn around(text: &'static str, at: usize) -> Option<&'static str> {
+    let bytes = text.as_bytes();
     let mut depth = 0usize;
     let open = bytes[..at].iter().rposition(|byte| match byte {
         b')' | b']' | b'}' => {

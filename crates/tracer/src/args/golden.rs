@@ -49,13 +49,13 @@ pub struct GoldenRunArgs {
     /// Only the scene of this name (repeatable)
     #[arg(long, value_name = "NAME")]
     pub only: Vec<String>,
-    /// Write a page that shows all pictures
+    /// Write a page that shows all pictures; `-`: to standard output
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
-    /// Write XML for CI servers
+    /// Write XML for CI servers; `-` as above
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
-    /// Write it as JSON
+    /// Write it as JSON; `-` as above
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
     /// Print annotations [default: where GITHUB_ACTIONS is true]

@@ -26,7 +26,7 @@ fn head(whole: &Path, stamp: &Stamp) -> String {
 /// The file whose hash a record tells; `None` where this is no record.
 pub fn subject(record: &Path) -> Option<String> {
     let mut start = [0; FIRST.len()];
-    let mut file = File::open(record).ok().filter(|_| record.is_file())?;
+    let mut file = Some(record).filter(|record| record.is_file()).and_then(|record| File::open(record).ok())?;
     file.read_exact(&mut start).ok().filter(|()| start == *FIRST.as_bytes())?;
     let mut rest = String::new();
     file.take(MOST_BYTES).read_to_string(&mut rest).ok()?;

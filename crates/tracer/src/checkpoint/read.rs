@@ -27,10 +27,13 @@ enum Fault {
 
 /// Whether a file begins as a saved film does, as far as it can be read.
 pub fn is_film(path: &Path) -> bool {
-    let Ok(file) = File::open(path) else { return false };
+    // A pipe gives what it has once: it is not opened.
+    let Some(file) = Some(path).filter(|path| path.is_file()).and_then(|path| File::open(path).ok()) else {
+        return false;
+    };
     // Only what opens with the head's first bytes is anything but foreign.
     let head = SavedFilm::open(file.take(16));
-    path.is_file() && !matches!(head, Err(FilmError::Foreign | FilmError::Io(_))) && !is_empty(path)
+    !matches!(head, Err(FilmError::Foreign | FilmError::Io(_))) && !is_empty(path)
 }
 
 fn is_empty(path: &Path) -> bool {

@@ -7,13 +7,14 @@ use crate::frames;
 use crate::loading::{Known, compile, is_dash, load_to_look, use_threads, with_faults_of_files};
 use crate::shell::{Shell, counted, sarif};
 use scene_format::diagnostic::{Severity, Source};
+use scene_format::render::json_error;
 use scene_format::{Diagnostics, LoadError, Syntax, codes, is_library, load_str};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 pub(super) fn run(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> {
-    let checked = check_all(args, shell);
+    let checked = check_all(args, &shell.denying(args.deny_warnings));
     if args.diagnostics == DiagnosticsForm::Sarif {
         std::io::stdout().lock().write_all(sarif(checked.is_ok()).as_bytes())?;
     }
@@ -32,13 +33,17 @@ fn check_all(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> {
             // The others are checked all the same.
             Err(Failure::WrongScene) => wrong += 1,
             Err(Failure::Wrong(error)) if many > 1 => {
-                shell.error(&error);
+                match args.diagnostics {
+                    DiagnosticsForm::Json => shell.say(&json_error(&format!("{error:#}"))),
+                    _ => shell.error(&error),
+                }
                 wrong += 1;
             }
             Err(failure) => return Err(failure),
         }
     }
-    if wrong > 0 && many > 1 {
+    // Whoever reads records counts them.
+    if wrong > 0 && many > 1 && args.diagnostics != DiagnosticsForm::Json {
         shell.error(&anyhow::anyhow!("{wrong} of {many} scenes are wrong"));
     }
     Ok(ExitCode::from(if wrong > 0 { exit::WRONG } else { exit::DONE }))
@@ -47,7 +52,10 @@ fn check_all(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> {
 /// What is wrong with a file that is there to be included, and its texts: all but that it has nothing to render. `None`
 /// where it is none.
 fn of_library(scene: &Path, syntax: Option<Syntax>) -> Result<Option<(Diagnostics, Vec<Source>)>, Failure> {
-    let text = Some(scene).filter(|scene| !is_dash(scene)).and_then(|scene| std::fs::read_to_string(scene).ok());
+    // A pipe gives what it has once: whoever loads the scene reads it.
+    let text = Some(scene)
+        .filter(|scene| !is_dash(scene) && scene.is_file())
+        .and_then(|scene| std::fs::read_to_string(scene).ok());
     let Some(text) = text else { return Ok(None) };
     let syntax = syntax.or_else(|| Syntax::from_path(scene)).unwrap_or_else(|| Syntax::guess(&text));
     if !is_library(&text, syntax) {

@@ -249,7 +249,7 @@ fn again(
     }
     let mut notes = picture_notes(&desc, &scene.mattes, &record.set);
     if let Some(layer) = record.shown().and_then(|layer| film.layer(layer)) {
-        (image, _) = layer_view::picture(&layer, film.crop().width);
+        (image, _) = layer_view::picture(&layer, film.crop().width, &scene.look);
         notes.extend(record.show.as_deref().map(show_note));
     }
     if record.files.is_some() || record.assets.is_some() {

@@ -5,7 +5,7 @@ use super::examine::{Opened, colours};
 use super::made::PAGE;
 use crate::args::GoldenRunArgs;
 use crate::failure::{Failure, exit};
-use crate::loading::use_threads;
+use crate::loading::{is_dash, use_threads};
 use crate::shell::Shell;
 use crate::write::{OutputKind, is_one_file, leads_to_same, probe, save, spare_other};
 use crate::{interrupt, lanes};
@@ -26,6 +26,7 @@ pub(super) fn run(args: &GoldenRunArgs, shell: &Shell) -> Result<ExitCode, Failu
     outputs.spare_folders(&folders)?;
     interrupt::listen(*shell)?;
     let threads = args.threads.map_or(0, usize::from);
+    let to_stdout = outputs.files.iter().any(|(_, path)| is_dash(path));
     let mut outcomes: Vec<Outcome> = Vec::new();
     let mut read: Vec<PathBuf> = Vec::new();
     for (opened, cases) in folders.iter().zip(chosen) {
@@ -35,14 +36,14 @@ pub(super) fn run(args: &GoldenRunArgs, shell: &Shell) -> Result<ExitCode, Failu
             let Some(examined) = opened.examine(case, threads, level)? else {
                 return Ok(ExitCode::from(interrupt::requested().unwrap_or(exit::INTERRUPTED)));
             };
-            tell(&examined.outcome)?;
+            tell(&examined.outcome, to_stdout)?;
             read.extend(examined.files);
             outcomes.push(examined.outcome);
         }
         // Where only some are run, nobody knows what the others read.
         if args.only.is_empty() {
             for orphan in opened.orphans(&read[first..]) {
-                tell(&orphan)?;
+                tell(&orphan, to_stdout)?;
                 outcomes.push(orphan);
             }
         }
@@ -50,12 +51,10 @@ pub(super) fn run(args: &GoldenRunArgs, shell: &Shell) -> Result<ExitCode, Failu
     }
     outputs.spare(&read)?;
     outputs.write(&outcomes)?;
-    let mut out = std::io::stdout().lock();
     if args.github || std::env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
-        out.write_all(github::annotations(&outcomes).as_bytes())?;
+        say(&github::annotations(&outcomes), to_stdout)?;
     }
-    out.write_all(lines::summary(&outcomes).as_bytes())?;
-    out.flush()?;
+    say(&lines::summary(&outcomes), to_stdout)?;
     Ok(ExitCode::from(if counts(&outcomes)[1] == 0 { exit::DONE } else { exit::FAILED }))
 }
 
@@ -93,9 +92,17 @@ fn chosen<'a>(folders: &'a [Opened], only: &[String]) -> Result<Vec<Vec<&'a Case
 }
 
 /// A line as soon as it is known.
-fn tell(outcome: &Outcome) -> Result<(), Failure> {
+fn tell(outcome: &Outcome, to_stdout: bool) -> Result<(), Failure> {
+    say(&lines::line(outcome), to_stdout)
+}
+
+/// On standard output; on standard error where a document goes there.
+fn say(text: &str, document_to_stdout: bool) -> Result<(), Failure> {
+    if document_to_stdout {
+        return Ok(std::io::stderr().lock().write_all(text.as_bytes())?);
+    }
     let mut out = std::io::stdout().lock();
-    out.write_all(lines::line(outcome).as_bytes())?;
+    out.write_all(text.as_bytes())?;
     Ok(out.flush()?)
 }
 
@@ -141,7 +148,9 @@ impl<'a> Outputs<'a> {
                 let shown = path.display();
                 return Err(Failure::wrong(format!("{other} and {option} both name {shown}; name two places")));
             }
-            probe(path)?;
+            if !is_dash(path) {
+                probe(path)?;
+            }
         }
         Ok(Outputs { files })
     }
@@ -179,7 +188,8 @@ impl<'a> Outputs<'a> {
             "--json" => OutputKind::Report,
             _ => OutputKind::Page,
         };
-        self.files.iter().try_for_each(|(option, path)| Ok(spare_other(path, kind(option))?))
+        let mut files = self.files.iter().filter(|(_, path)| !is_dash(path));
+        files.try_for_each(|(option, path)| Ok(spare_other(path, kind(option))?))
     }
 
     fn write(&self, outcomes: &[Outcome]) -> Result<(), Failure> {
@@ -189,7 +199,10 @@ impl<'a> Outputs<'a> {
                 "--json" => json::report(outcomes).map_err(|error| Failure::could_not(error.to_string()))?,
                 _ => page_of(outcomes)?,
             };
-            save(path, text.as_bytes())?;
+            match is_dash(path) {
+                true => say(&text, false)?,
+                false => save(path, text.as_bytes())?,
+            }
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ use crate::denoising::{self, DenoiseReport, Developed};
 use crate::failure::Failure;
 use crate::layer_view;
 use crate::shell::Shell;
-use tracer_core::{Film, Image, Layer};
+use tracer_core::{Film, Image, Layer, Look};
 
 /// A film as a picture.
 pub(super) struct Picture {
@@ -50,16 +50,16 @@ impl Picture {
             image.mattes = ready.scene.mattes.develop(film);
         }
         if let Some(layer) = asked.args.show {
-            self.image = shown(layer, film, asked.shell);
+            self.image = shown(layer, film, &ready.scene.look, asked.shell);
         }
         self
     }
 }
 
 /// A layer of a film in place of its picture; what its colours stand for is said.
-fn shown(layer: Layer, film: &Film, shell: &Shell) -> Option<Image> {
+fn shown(layer: Layer, film: &Film, look: &Look, shell: &Shell) -> Option<Image> {
     let layer = film.layer(layer)?;
-    let (image, range) = layer_view::picture(&layer, film.crop().width);
+    let (image, range) = layer_view::picture(&layer, film.crop().width, look);
     if let Some([low, high]) = range.map(|range| range.map(layer_view::number)).filter(|_| shell.is_told()) {
         shell.say(&format!("{}: {low} is dark, {high} and more is bright", layer.name));
     }
