@@ -89,7 +89,7 @@ also with
 clamp(x, low, high)
   mix(a, b, t) step(edge, x) smoothstep(low, high, x)`, `keyframes(t, t0, value0, t1, value1, ..)`
   (linear between rising times, the first or last value outside), `length normalize dot cross`, `hsv(hue, saturation, \
-value)`,
+value)` (as screens have it: grey of value 0.5 is \"#808080\", which is 0.214),
   `blackbody(kelvin)` (the colour of what glows at 500 to 40000 K, of luminance 1),
   `random(n, ..)` (0 to 1, the same for the same one to four numbers), `len(list)`, `if(condition, a, b)`, \
 where what is not chosen may have no value (`if(i > 0, 1/i, 0)`; so behind `&&` and `||`); `pi`;

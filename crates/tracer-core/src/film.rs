@@ -94,7 +94,7 @@ struct Taken {
 #[derive(Clone, Debug, PartialEq, Zeroable)]
 struct Splats {
     sums: Sums,
-    /// Sum of squares of the luminance.
+    /// Sum of squares of the luminance; where the background is kept by itself, of what is before it.
     squares: Squares,
 }
 

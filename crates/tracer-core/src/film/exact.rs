@@ -97,6 +97,19 @@ impl Squares {
     /// Adds the square of a number.
     #[inline(always)]
     pub fn add(&mut self, pixel: usize, y: f64) {
+        self.add_words(pixel, Self::square(y));
+    }
+
+    /// Takes the square of a number away that was added before.
+    pub fn take(&mut self, pixel: usize, y: f64) {
+        // The complement to two.
+        self.add_words(pixel, Self::square(y).map(|word| !word));
+        self.add_words(pixel, [1, 0, 0]);
+    }
+
+    /// The words of a square.
+    #[inline(always)]
+    fn square(y: f64) -> [u64; 3] {
         let y = y.abs().min(Self::MOST);
         let bits = (y * y).to_bits();
         // The square is mantissa * 2^(exponent - 1075); below the normal numbers it is far below the last place, like
@@ -104,13 +117,12 @@ impl Squares {
         let (exponent, mantissa) = ((bits >> 52) as i32, bits & ((1 << 52) - 1) | 1 << 52);
         let shift = exponent - 1075 + Self::PLACES;
         if shift <= -53 {
-            return;
+            return [0; 3];
         }
         // No larger shift than 120 comes from MOST, so the lowest bit lies in one of the two lower words.
         let part = if shift < 0 { u128::from(mantissa >> -shift) } else { u128::from(mantissa) << (shift & 63) };
         let (low, high) = (part as u64, (part >> 64) as u64);
-        let more = if shift < 64 { [low, high, 0] } else { [0, low, high] };
-        self.add_words(pixel, more);
+        if shift < 64 { [low, high, 0] } else { [0, low, high] }
     }
 
     /// Adds the sums of another.
@@ -187,6 +199,18 @@ mod tests {
         let expected: f64 = numbers.iter().map(|y| y * y).sum();
         assert!((forwards.of(3) / expected - 1.0).abs() < 1e-12, "{} {expected}", forwards.of(3));
         assert_eq!(forwards.of(4), 0.0);
+    }
+
+    #[test]
+    fn squares_that_are_taken_are_gone() {
+        let numbers: Vec<f64> = (-40..20).map(|k| 1.37 * 2f64.powi(k)).collect();
+        let mut squares = Squares::zeroed();
+        numbers.iter().for_each(|&y| squares.add(3, y));
+        squares.add(3, 0.5);
+        numbers.iter().rev().for_each(|&y| squares.take(3, y));
+        assert_eq!(squares.of(3), 0.25);
+        squares.take(3, 0.5);
+        assert_eq!(squares.words(3), [0; 3]);
     }
 
     #[test]

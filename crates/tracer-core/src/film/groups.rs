@@ -47,6 +47,9 @@ struct OfGroup {
 pub(crate) trait Samples {
     /// A sample in least units; `None` where it cannot be summed.
     fn whole(&self, k: usize) -> Option<[i128; 3]>;
+
+    /// Its luminance, as its square is summed.
+    fn luminance(&self, k: usize) -> f64;
 }
 
 impl Samples for [&[f32]; 3] {
@@ -55,6 +58,11 @@ impl Samples for [&[f32]; 3] {
         let sample = self.map(|channel| channel[k]);
         counts(sample).then(|| sample.map(fixed))
     }
+
+    #[inline(always)]
+    fn luminance(&self, k: usize) -> f64 {
+        luminance(self.map(|channel| f64::from(channel[k])))
+    }
 }
 
 /// Totals over the groups.
@@ -62,6 +70,11 @@ impl Samples for &[[i128; 3]] {
     #[inline(always)]
     fn whole(&self, k: usize) -> Option<[i128; 3]> {
         Some(self[k])
+    }
+
+    #[inline(always)]
+    fn luminance(&self, k: usize) -> f64 {
+        luminance(self[k].map(|x| x as f64 * LEAST))
     }
 }
 
@@ -168,9 +181,9 @@ impl Tile {
     /// Counts samples of a block whose groups [`Tile::add_group`] has added all.
     pub(crate) fn count_totals(&mut self, totals: &[[i128; 3]], pixels: &[[u8; 2]]) {
         for &[k, pixel] in pixels {
-            let pixel = usize::from(pixel);
+            let (k, pixel) = (usize::from(k), usize::from(pixel));
             self.samples[pixel] += 1;
-            self.squares.add(pixel, luminance(totals[usize::from(k)].map(|x| x as f64 * LEAST)));
+            self.squares.add(pixel, Samples::luminance(&totals, k));
         }
     }
 

@@ -9,8 +9,8 @@ use tracer_kernels::layers::LayerSamples;
 
 impl Tile {
     /// Adds samples of the block whose first item this is, those of [`Tile::add`], whose camera rays have hit nothing:
-    /// all that they have is the background. Where halves are kept, what is seen of it is coverage, not light, as lamps
-    /// are.
+    /// all that they have is the background, and no noise of what is before it. Where halves are kept, what is seen of it
+    /// is coverage, not light, as lamps are.
     pub(crate) fn add_missed(
         &mut self,
         samples: impl Samples,
@@ -26,6 +26,7 @@ impl Tile {
             }
             let Some(sample) = samples.whole(k).filter(|&sample| sample != [0; 3]) else { continue };
             self.missed.get_or_insert_with(|| Box::new(Sums::zeroed())).add(pixel, sample);
+            self.squares.take(pixel, samples.luminance(k));
             self.add_to_lamps(half, pixel, sample);
         }
     }

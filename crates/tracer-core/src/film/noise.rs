@@ -170,15 +170,15 @@ impl Film {
         (f64::from(self.crop.width) * f64::from(self.crop.height)).max(1.0)
     }
 
-    /// Estimated variance of a pixel's mean luminance, were its samples independent (they are better than that). Zero
-    /// below two samples.
+    /// Estimated variance of a pixel's mean luminance, were its samples independent (they are better than that); where
+    /// the background is kept by itself, of what is before it. Zero below two samples.
     pub fn variance(&self, x: u32, y: u32) -> f64 {
         let (tile, pixel) = self.place(x, y);
         if tile.samples[pixel] < 2 {
             return 0.0;
         }
         let n = f64::from(tile.samples[pixel]);
-        let mean = luminance(tile.sums.mean(pixel, tile.samples[pixel]));
+        let mean = tile.of_samples(pixel);
         let of_samples = ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0);
         // Light paths come one by one: the variance of such a sum is about the sum of squares.
         let splats = tile.splats.as_ref().map_or(0.0, |splats| splats.squares.of(pixel));
@@ -191,18 +191,22 @@ impl Film {
     /// black.
     pub fn noise(&self, x: u32, y: u32) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
-        let (variance, mean) =
-            (self.variance(x, y) / self.unit / self.unit, luminance(self.radiance(x, y)) / self.unit);
+        let (variance, mean) = (self.variance(x, y) / self.unit / self.unit, self.mean_luminance(x, y));
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
+    /// Mean luminance of a pixel in the sums' own unit, without the background where that is kept by itself.
+    fn mean_luminance(&self, x: u32, y: u32) -> f64 {
+        (luminance(self.radiance(x, y)) - luminance(self.background(x, y))) / self.unit
+    }
+
     /// Root mean square over the pixels of their standard error, relative to the mean luminance: the noise of the
-    /// picture as one number. It is seen from how much pictures of other samples differ; of parts that were merged, and
+    /// picture as one number; where the background is kept by itself, of what is before it. It is seen from how much pictures of other samples differ; of parts that were merged, and
     /// where something moves while the shutter is open, it is what independent samples would have, which is more. Zero
     /// where no pixel has two samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
-        let mean = self.pixels().map(|(x, y)| luminance(self.radiance(x, y)) / self.unit).sum::<f64>() / self.count();
+        let mean = self.pixels().map(|(x, y)| self.mean_luminance(x, y)).sum::<f64>() / self.count();
         let independent = || {
             let variance = |(x, y)| self.variance(x, y) / self.unit / self.unit;
             self.pixels().map(variance).sum::<f64>() / self.count()
@@ -228,7 +232,7 @@ impl Film {
         of_pixels.select_nth_unstable_by(most, |a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         let (few, others) = of_pixels.split_at_mut(most);
         few.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-        let light = |&([x, y], _): &([u32; 2], f64)| luminance(self.radiance(x, y)) / self.unit;
+        let light = |&([x, y], _): &([u32; 2], f64)| self.mean_luminance(x, y);
         // Sums of their own: of differences nothing may be left but rounding.
         let mut sums = [others.iter().map(|(_, variance)| variance).sum(), others.iter().map(light).sum::<f64>()];
         let mut count = others.len() as f64;
@@ -287,10 +291,17 @@ impl Film {
 }
 
 impl Tile {
-    /// Mean luminance of a pixel in the sums' own unit, with what the light paths of so many sample indices brought.
+    /// Mean luminance of a pixel's samples in the sums' own unit, without the background where that is kept by itself.
+    fn of_samples(&self, pixel: usize) -> f64 {
+        let samples = self.samples[pixel];
+        let behind = self.missed.as_ref().map_or(0.0, |missed| luminance(missed.mean(pixel, samples)));
+        luminance(self.sums.mean(pixel, samples)) - behind
+    }
+
+    /// The same, with what the light paths of so many sample indices brought.
     fn luminance(&self, pixel: usize, light: f64) -> f64 {
         let of_light = self.splats.as_ref().map_or(0.0, |splats| luminance(splats.sums.mean(pixel, light)));
-        luminance(self.sums.mean(pixel, self.samples[pixel])) + of_light
+        self.of_samples(pixel) + of_light
     }
 }
 

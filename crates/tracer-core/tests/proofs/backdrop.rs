@@ -27,6 +27,37 @@ fn balls() -> SceneDesc {
     desc
 }
 
+/// What is left out has no noise: that of a picture for compositing is of what is before the background, however bright
+/// that is. Seen without bounces the two pictures are the same before it.
+#[test]
+fn noise_is_of_what_is_before_the_background() {
+    let of = |background: f64, groups: bool| {
+        let lamps = vec![light([0.3, 0.1, 0.0], 0.8, [2.0, 1.0, 0.5]), light([-0.9, 0.4, 0.0], 0.3, [0.2; 3])];
+        let mut desc = scene(24, lamps, Vec::new())
+            .background([background; 3])
+            .camera([0.0, 0.0, 6.0], [0.0; 3], 40.0)
+            .filter(PixelFilter::BlackmanHarris { radius: 1.5.into() });
+        desc.output = Output { alpha: true, light_groups: groups, ..Output::default() };
+        film(&compiled(&desc), 32, 3)
+    };
+    let black = of(0.0, false);
+    assert!(black.relative_noise() > 1e-3);
+    for film in [of(4.0, false), of(4.0, true)] {
+        let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs() + 1e-12;
+        assert!(
+            same(film.relative_noise(), black.relative_noise()),
+            "{} {}",
+            film.relative_noise(),
+            black.relative_noise()
+        );
+        for (x, y) in pixels(&film) {
+            assert!(same(film.variance(x, y), black.variance(x, y)), "({x}, {y})");
+            // Squares of what is left out would be 16 times 32.
+            assert!(film.variance(x, y) < 0.1);
+        }
+    }
+}
+
 fn pixels(film: &Film) -> impl Iterator<Item = (u32, u32)> + use<> {
     let [width, height] = film.size();
     (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
