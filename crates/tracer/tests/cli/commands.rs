@@ -99,9 +99,45 @@ fn warnings_are_allowed_by_their_codes() {
     // Quiet, it tells by its exit code alone, and errors.
     let quiet = sandbox.run(&["check", "odd.ron", "-q"]).ends(0).silent();
     assert_eq!(quiet.out_text(), "");
-    sandbox.run(&["check", "odd.ron", "-q", "--deny-warnings"]).ends(2).says(&["denied by --deny-warnings"]);
+    let denied = sandbox.run(&["check", "odd.ron", "-q", "--deny-warnings"]).ends(2);
+    denied.says(&["W0401", "denied by --deny-warnings"]);
     let added = sandbox.run(&["check", "scene.ron", "--set", "camera.fov+=5"]).ends(2);
     added.says(&["E0404", "`+=`", "--set vars.name=2"]);
+}
+
+/// Whoever asks for records gets nothing else, whatever fails.
+#[test]
+fn failures_of_no_scene_are_records_too() {
+    let sandbox = Sandbox::new();
+    sandbox.write("odd.ron", SCENE.replace("materials: {", "materials: { \"spare\": Diffuse(albedo: 0.5),"));
+    sandbox.write("wrong.ron", "Scene(");
+    for arguments in [
+        &["check", "none.ron", "--diagnostics", "json"][..],
+        &["check", "odd.ron", "wrong.ron", "none.ron", "--diagnostics", "json"],
+        &["render", "scene.ron", "-o", "none/a.png", "--samples", "1", "--diagnostics", "json", "--quiet"],
+        &["info", "none.ron", "--diagnostics", "json"],
+    ] {
+        let ran = sandbox.run(arguments);
+        assert!(ran.code != Some(0) && !ran.err.is_empty());
+        let is_record =
+            |line: &str| serde_json::from_str::<serde_json::Value>(line).is_ok_and(|it| it["severity"] != "");
+        assert!(ran.err.lines().all(is_record), "{arguments:?}: {}", ran.err);
+    }
+}
+
+/// What a pipe has it gives once, so nobody looks into it before it is read.
+#[cfg(unix)]
+#[test]
+fn scenes_come_through_pipes() {
+    let sandbox = Sandbox::new();
+    for command in ["check", "info", "fmt --check", "convert --to json -o -", "render -o a.png --samples 1 --quiet"] {
+        let (name, rest) = command.split_once(' ').unwrap_or((command, ""));
+        let ran = sandbox.shell(&format!("cat scene.ron | \"$T\" {name} /dev/stdin {rest}"));
+        assert!(!ran.err.contains("error"), "{command}: {}", ran.err);
+        let fifo = format!("rm -f p.ron; mkfifo p.ron; cat scene.ron > p.ron & \"$T\" {name} p.ron {rest}");
+        let ran = sandbox.shell(&fifo);
+        assert!(!ran.err.contains("error"), "{command}: {}", ran.err);
+    }
 }
 
 /// The views of all of a scene's cameras can be looked through, one after the other.

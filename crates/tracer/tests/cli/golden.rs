@@ -44,6 +44,10 @@ fn from_nothing_to_a_pass() {
     assert_eq!(out, "golden/plain: new\ngolden/room/lamp: new\n");
     let out = run(&sandbox).ends(0).silent().out_text();
     assert!(out.contains("ok    golden/plain: equal (") && out.ends_with("2 passed, 0 failed\n"), "{out}");
+    // A document on standard output is alone there.
+    let json = sandbox.run(&["golden", "run", "golden", "--json", "-"]).ends(0).says(&["ok    golden/plain"]);
+    assert!(serde_json::from_slice::<serde_json::Value>(&json.out_text().into_bytes()).is_ok());
+    assert!(!sandbox.files().contains(&"-".to_owned()));
     let log = sandbox.text("golden/log.md");
     assert!(log.starts_with("# Why golden pictures") && log.ends_with("- room/lamp (new): looked at\n"), "{log}");
     // A page of what has passed does not stay, and nothing that was made.
