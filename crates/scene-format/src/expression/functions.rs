@@ -83,7 +83,7 @@ functions! {
         }
         _ => None,
     };
-    "hsv" "hsv(hue, saturation, value)" "a colour by hue in degrees, saturation and value, 0 to 1, in sRGB" |a| match a {
+    "hsv" "hsv(hue, saturation, value)" "a colour by hue in degrees, saturation and value of sRGB" |a| match a {
         [Value::Number(h), Value::Number(s), Value::Number(v)] => Some(Value::Triple(hsv(*h, *s, *v))),
         _ => None,
     };

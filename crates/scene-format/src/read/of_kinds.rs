@@ -72,8 +72,8 @@ pub(super) const OBJECTS: Hints = &[
     (&["camera"], "the camera is the scene's `camera`, beside `objects`"),
     (
         &["if", "when", "switch", "choose", "random", "select"],
-        "what is there at times only: Repeat(count: \"=if(frame < 10, 1, 0)\", items: [..]); one of several: Pick(from: \
-         [..], index: 1)",
+        "what is there at times only: Repeat(count: \"=if(frame < 10, 1, 0)\", items: [..]); one of several: \
+         Pick(from: [..], index: 1)",
     ),
     (&["volume", "fog", "medium", "smoke", "hair", "particles", "points"], "there is no such thing: surfaces only"),
 ];

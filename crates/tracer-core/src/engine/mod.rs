@@ -61,8 +61,8 @@ pub enum Misfit {
 }
 
 /// Renders the scene: the third hand, `Scene` to [`Film`]. It cannot fail; an observer can end it early. Where
-/// something moves while the shutter is open, each quarter of a sample index sees a scene of its own ([`Scene::at_sample`]), and
-/// what is wrong with one of these ends it early, too ([`Film::fault`]).
+/// something moves while the shutter is open, each quarter of a sample index sees a scene of its own
+/// ([`Scene::at_sample`]), and what is wrong with one of these ends it early, too ([`Film::fault`]).
 pub fn render(scene: &Scene, options: &RenderOptions, observer: &dyn Observer) -> Film {
     let film = new_film_of(scene, options);
     go_on(scene, options, film, observer).unwrap_or_else(|misfit| unreachable!("a new film: {misfit}"))

@@ -1,6 +1,7 @@
-//! A scene in which something moves while the shutter is open: each quarter of the pixels of a sample index sees a scene
-//! of its own ([`Scene::at_sample`]); all of them the same where that takes long to compile. One of them is in memory at a time, and what is to tell how things move of two
-//! more. A sample index is a pass; its quarters are painted one after the other.
+//! A scene in which something moves while the shutter is open: each quarter of the pixels of a sample index sees a
+//! scene of its own ([`Scene::at_sample`]); all of them the same where that takes long to compile. One of them is in
+//! memory at a time, and what is to tell how things move of two more. A sample index is a pass; its quarters are
+//! painted one after the other.
 //!
 //! Pixels of a quarter share what they find, as always, and those of one quarter at one sample index are of others at
 //! the next. Were there one moment for all pixels, sixteen samples would show sixteen ghosts of what moves fast.

@@ -9,8 +9,8 @@ use tracer_kernels::layers::LayerSamples;
 
 impl Tile {
     /// Adds samples of the block whose first item this is, those of [`Tile::add`], whose camera rays have hit nothing:
-    /// all that they have is the background, and no noise of what is before it. Where halves are kept, what is seen of it
-    /// is coverage, not light, as lamps are.
+    /// all that they have is the background, and no noise of what is before it. Where halves are kept, what is seen of
+    /// it is coverage, not light, as lamps are.
     pub(crate) fn add_missed(
         &mut self,
         samples: impl Samples,

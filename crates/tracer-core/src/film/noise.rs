@@ -201,9 +201,10 @@ impl Film {
     }
 
     /// Root mean square over the pixels of their standard error, relative to the mean luminance: the noise of the
-    /// picture as one number; where the background is kept by itself, of what is before it. It is seen from how much pictures of other samples differ; of parts that were merged, and
-    /// where something moves while the shutter is open, it is what independent samples would have, which is more. Zero
-    /// where no pixel has two samples: nobody can tell.
+    /// picture as one number; where the background is kept by itself, of what is before it. It is seen from how much
+    /// pictures of other samples differ; of parts that were merged, and where something moves while the shutter is
+    /// open, it is what independent samples would have, which is more. Zero where no pixel has two samples: nobody can
+    /// tell.
     pub fn relative_noise(&self) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
         let mean = self.pixels().map(|(x, y)| self.mean_luminance(x, y)).sum::<f64>() / self.count();

@@ -92,8 +92,8 @@ fn moving_beside(more: &str, objects: &str) -> SceneDesc {
 /// At sixteen samples no ghosts are seen: over a column of pixels the moments are 64, and of a pixel sixteen that are
 /// well spread.
 ///
-/// An edge passes a pixel in a thirty-second of the time, and is in one or two of the sixteen parts that a pixel has one
-/// sample of each in, which is there or not: a variance of 1/4 at most, 0.5/16 of the whole for an edge and for two
+/// An edge passes a pixel in a thirty-second of the time, and is in one or two of the sixteen parts that a pixel has
+/// one sample of each in, which is there or not: a variance of 1/4 at most, 0.5/16 of the whole for an edge and for two
 /// 0.044; rows are of quarters of their own, so that a column of sixteen has a fourth of it. Were all pixels to see the
 /// same sixteen moments, a column would be as far off as a pixel.
 #[test]

@@ -73,9 +73,9 @@ fn shared(slot: u32, batch: &Batch) -> Option<Shared> {
     Some(Shared { pixels: group.len, found: suffixes().count() as u32, seen: seen as u32 })
 }
 
-/// Explains it; the outer `None`: there is no such pixel; the inner: no technique is at work.
-/// `whole`: the scene as the shutter opens, of which the engine's is what the sample sees, and the quarter that it is of
-/// where something moves. Of light paths, a fourth of those of the sample index come at its moment.
+/// Explains it; the outer `None`: there is no such pixel; the inner: no technique is at work. `whole`: the scene as the
+/// shutter opens, of which the engine's is what the sample sees, and the quarter that it is of where something moves.
+/// Of light paths, a fourth of those of the sample index come at its moment.
 pub fn explain(
     engine: Engine<'_>,
     (whole, quarter): (&Scene, Option<u32>),
