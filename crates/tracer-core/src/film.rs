@@ -407,7 +407,8 @@ impl Film {
 
     /// How many sample indices' light paths are on it.
     fn light_count(&self) -> f64 {
-        f64::from(self.light_samples.saturating_sub(self.first())) + self.light_of_quarters()
+        let whole = f64::from(self.light_samples.saturating_sub(self.first()));
+        if self.unfinished.is_none() { whole } else { whole + self.light_of_quarters() }
     }
 
     /// What part of the light paths of a sample index that was ended early is on it: where something moves, those of a
@@ -487,7 +488,9 @@ impl Film {
         let [r, g, b] = match splats {
             None => sums.mean(pixel, samples),
             // As always but where a rendering was ended early; half the work.
-            Some(splats) if f64::from(samples) == self.light_count() => sums.mean_with(splats, pixel, samples),
+            Some(splats) if self.unfinished.is_none() && samples == self.light_samples.saturating_sub(self.first()) => {
+                sums.mean_with(splats, pixel, samples)
+            }
             Some(splats) => {
                 let (of_paths, of_light) = (sums.mean(pixel, samples), splats.mean(pixel, self.light_count()));
                 [of_paths[0] + of_light[0], of_paths[1] + of_light[1], of_paths[2] + of_light[2]]
