@@ -213,6 +213,7 @@ impl Texts {
         diagnostics.sort_by_key(|diagnostic| diagnostic.span);
         nameless::name_values(text, &mut diagnostics);
         follow_ups::withhold(text, &mut diagnostics);
+        overrides::as_arguments(&mut diagnostics, overrides);
         let Some(scene) = scene else {
             return Err(Faults { diagnostics, files: sink.files.outside(&broken), undecided });
         };

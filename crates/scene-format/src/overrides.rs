@@ -18,6 +18,7 @@ use crate::tree::{Builder, Item, Kind, Node, Text, Tree};
 use crate::words::Words;
 use std::path::Path;
 use steps::{Step, What, end_of_path, steps};
+pub(crate) use value::as_arguments;
 
 /// An argument of `--set`: `camera.fov=40`, `materials.glass=Transparent(ior: 1.6)`, `objects[2].radius=3`. The value
 /// is written in RON, whatever the scene file is written in.
@@ -134,7 +135,11 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
         // An empty file: it has no root to put the field into.
         tree.nodes.push(Node { start: 0, end: 0, size: 1, source: 0, kind: Kind::Struct });
     }
-    Setter { source, value: builder.nodes.iter().collect() }.set(tree, &steps)
+    let set = Setter { source, value: builder.nodes.iter().collect() }.set(tree, &steps);
+    set.map_err(|fault| match value::size_of(argument) {
+        Some(size) => Diagnostic { hint: size, edit: None, ..fault },
+        None => fault,
+    })
 }
 
 /// What the edit of the tape will be.
@@ -322,13 +327,9 @@ impl Setter {
                     1 => "0: the list has one item".to_owned(),
                     count => format!("0 to {}: the list has {count} items", count - 1),
                 };
-                Err(self
-                    .fault(
-                        codes::BAD_SET_INDEX,
-                        step,
-                        format!("there is no item {index} in {}", crate::read::plain(noun)),
-                    )
-                    .expected(expected))
+                let message = format!("there is no item {index} in {}", crate::read::plain(noun));
+                let fault = self.fault(codes::BAD_SET_INDEX, step, message).expected(expected);
+                Err(if count == 0 { fault.hint(value::as_a_list(noun)) } else { fault })
             }
         }
     }
@@ -476,7 +477,7 @@ impl Setter {
                 .hint(value::as_a_whole(noun, name, *of))),
             (Type::Map(_) | Type::List(_), _) => Err(self
                 .fault(codes::BAD_SET_PATH, step, format!("{} is not written in the scene", crate::read::plain(noun)))
-                .hint("set it as a whole")),
+                .hint(value::as_a_list(noun))),
             (Type::Vector | Type::Pair, _) => Err(self
                 .fault(codes::BAD_SET_PATH, step, format!("{} is not written in the scene", crate::read::plain(noun)))
                 .hint(match kind {

@@ -73,7 +73,7 @@ fn kinds_of_objects() {
         ("Box(size: 1, transform: [Shear(1)])", "a `Matrix` may shear"),
         ("Box(size: 1, transform: [Orient((0, 0, 1))])", "the nearest here is `Align(to: ..)`"),
         ("Box(size: 1, transform: [Resize((1, 2, 3))])", "the nearest here is `FitTo(size: ..)`"),
-        ("Box(size: 1, transform: [FitTo(2)])", "write `height: 2`"),
+        ("Box(size: 1, transform: [FitTo(2)])", "write `FitTo(height: 2)`"),
         ("Box(size: 1, transform: [FitTo(height: 2, width: 1)])", "remove all but one"),
         ("Box(size: 1, transform: [FitTo(about: (0, 0, 0))])", "add `height: ..`"),
         ("Box(size: 1, matrix: 1)", "`transform: [Matrix(rows: "),
@@ -204,8 +204,8 @@ fn fields_of_patterns() {
         ("Wood(color2: (1, 0, 0))", "did you mean `b`?"),
         ("Voronoi(randomness: 1)", "did you mean `jitter`?"),
         ("Noise(kind: \"perlin\")", "write Perlin"),
-        ("Noise(mapping: Object(10))", "write `scale: 10`"),
-        ("Lines(mapping: Uv((2, 3)))", "write `scale: (2, 3)`"),
+        ("Noise(mapping: Object(10))", "write `Object(scale: 10)`"),
+        ("Lines(mapping: Uv((2, 3)))", "write `Uv(scale: (2, 3))`"),
         ("\"wood\"", "write Wood()"),
         ("Noise(mapping: 10)", "write Object(scale: 10): so many cells along a unit of length"),
         ("Noise(mapping: (1, 2, 3))", "write Object(scale: (1, 2, 3))"),
@@ -317,6 +317,34 @@ fn shapes_in_braces() {
     let mended =
         format!("{}{}{}", &text[..edit.span.start as usize], edit.replacement, &text[edit.span.end as usize..]);
     assert!(errors(&mended).is_empty(), "{mended}");
+}
+
+/// What newcomers wrote, each with a hint that leads to a scene in one step.
+#[test]
+fn first_tries() {
+    let objects = [
+        ("Box(size: 1, material: Diffuse(albedo: Texture(file: \"a.png\", mapping: Uv(repeat: 6))))", "`scale: 6`"),
+        ("Repeat(count: 5, Box(size: 1))", "write `items: [Box(size: 1)]`"),
+        ("Quad(corners: [(0, 0, 0), (1, 0, 0), (1, 1, 0)])", "Polygon(points: [(0, 0, 0), (1, 0, 0), (1, 1, 0)])"),
+        ("Polygon(a: (0, 0, 0), b: (1, 0, 0), c: (1, 1, 0))", "write `points: [(0, 0, 0), (1, 0, 0), (1, 1, 0)]`"),
+        ("Sphere(radii: (1, 2, 3))", "write `radius: 1, transform: [Scale((1, 2, 3))]`"),
+        ("Sphere(center: (0, 1, 0), radii: (1, 2, 3))", "Scale(factor: (1, 2, 3), about: (0, 1, 0))"),
+        ("Sphere(center: (0, 0, 0), radius: (1, 2, 3))", "`radius: 1, transform: [Scale(factor: (1, 2, 3), about:"),
+        ("Sphere(center: (0, 1, -(3)), radius: 1)", "write \"=-(3)\""),
+        ("Sphere(center: (0, 1, \"=sin(radians(30))\"), radius: 1)", "sin(30) is 0.5: leave it out"),
+        ("Box(size: 1, material: Diffuse(0.5))", "write `Diffuse(albedo: 0.5)`"),
+        ("Box(size: 1, material: Transparent(ior: (1.5, 1.52, 1.55)))", "no wavelengths: write one number, 1.52"),
+    ];
+    check(&objects, |object| scene("", "", object));
+    let fields = [
+        ("render: Render(caustics: false),", "write None"),
+        ("output: Output(layers: Depth),", "write [Depth]"),
+        ("render: 16,", "write Render(samples: 16)"),
+        ("materials: [Diffuse(albedo: 0.5)],", "each has a name here, by which objects have it: { \"a\": Diffuse("),
+        ("lights: [SphereLight(center: (0, 5, 0), radius: 0, power: 9)],", "a small sphere: radius: 0.1"),
+        ("lights: [SphereLight(center: (0, 5, 0), radius: 1, power: 9, color: 3000K)],", "write \"=blackbody(3000)\""),
+    ];
+    check(&fields, |field| scene(field, "", ""));
 }
 
 #[test]

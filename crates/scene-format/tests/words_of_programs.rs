@@ -275,6 +275,31 @@ fn values_of_arguments() {
     }
 }
 
+/// Hints for `--set` have the whole argument as a shell takes it.
+#[test]
+fn first_tries_of_arguments() {
+    let lit = "materials: { \"white\": Diffuse(albedo: 0.5) }, lights: [SphereLight(center: (0, 5, 0), radius: 0.1, \
+               power: 3)],";
+    let cases = [
+        (lit, "objects[0].name=foo", "write --set 'objects[0].name=\"foo\"'"),
+        (lit, "lights[0].group=key", "write --set 'lights[0].group=\"key\"'"),
+        (lit, "materials.white.albedo=a/b.png", "write --set 'materials.white.albedo=Texture(file: \"a/b.png\")'"),
+        (lit, "include=style.ron", "write --set 'include=[\"style.ron\"]'"),
+        (lit, "image.size=160x100", "write --size 160x100"),
+        (lit, "image.size=(160,100)", "write --size 160x100"),
+        (lit, "output.layers=depth", "write --set 'output.layers=[Depth]'"),
+        (lit, "render.caustics=false", "write --set 'render.caustics=None'"),
+        (lit, "lights[0].color=3000K", "write --set 'lights[0].color==blackbody(3000)'"),
+        (lit, "materials.white=null", "write --set 'materials.white=Diffuse(albedo: 0.5)', say"),
+        ("", "lights[0].power=3", "--set 'lights=[SphereLight("),
+    ];
+    for (top, set, told) in cases {
+        let text = format!("Scene(background: 1, {top} camera: Camera(), objects: [{BALL}])");
+        let errors = errors(&text, &[Override::from(set)]);
+        assert!(errors.len() == 1 && errors[0].hint.contains(told), "{set}: {errors:#?}");
+    }
+}
+
 /// A value of `--set` that begins with `=` is an expression, and a new name in a map is added.
 #[test]
 fn expressions_and_names_of_arguments() {

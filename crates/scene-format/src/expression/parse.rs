@@ -95,7 +95,7 @@ fn function_of_others(name: &str) -> Option<&'static str> {
             "angles are in degrees already; x in radians is x*180/pi of them"
         }
         "rad" | "radians" | "deg2rad" | "toradians" | "to_radians" => {
-            "angles are in degrees: leave it out, or write x*pi/180"
+            "angles are in degrees, sin(30) is 0.5: leave it out; a number of radians by itself is x*pi/180"
         }
         "pow" | "power" => "a power is written with `^`: x^2",
         "mod" | "fmod" | "modulo" => "the rest of a division is written with `%`: x%2",

@@ -1,11 +1,11 @@
 //! What is said of a value of `--set` that cannot be read: it stands in no file, and in no scene; and how names are
 //! written in its path.
 
-use super::{Step, What};
+use super::{Override, Step, What};
 use crate::codes;
 use crate::desc::Scene;
-use crate::diagnostic::Diagnostic;
-use crate::read::shortened;
+use crate::diagnostic::{Diagnostic, Edit};
+use crate::read::{is_picture, shortened};
 use crate::schema::Type;
 
 /// A fault of a value, in words for a whole scene, in those for one value.
@@ -32,7 +32,80 @@ pub(super) fn of_argument(fault: &mut Diagnostic, argument: &str) {
             fault.hint = format!("write --set '{before}{written}{after}'");
         }
         codes::UNCLOSED_BRACKET => fault.hint = format!("write {} at its end", fault.expected),
+        codes::BAD_NUMBER if let Some(size) = size_of(argument) => (fault.hint, fault.edit) = (size, None),
+        codes::WORD_NOT_QUOTED if let Some(edit) = &mut fault.edit => {
+            let (path, _) = argument.split_once('=').unwrap_or((argument, ""));
+            if let Some(meant) = file_of(path.trim(), &edit.replacement) {
+                fault.hint = format!("write {meant}");
+                edit.replacement = meant;
+            }
+        }
         _ => {}
+    }
+}
+
+/// What the name of a file, between its quotes, is for a field that takes more than that.
+fn file_of(path: &str, quoted: &str) -> Option<String> {
+    const OF_TEXTURES: [&str; 8] = ["albedo", "color", "reflectance", "transmittance", "a", "b", "specular", "input"];
+    let field = path.rsplit('.').next().unwrap_or(path);
+    let picture = is_picture(quoted.trim_matches('"'));
+    match field {
+        "include" => Some(format!("[{quoted}]")),
+        "background" if picture => Some(format!("Environment(file: {quoted})")),
+        _ if picture && (OF_TEXTURES.contains(&field) || path.starts_with("textures.")) => {
+            Some(format!("Texture(file: {quoted})"))
+        }
+        _ => None,
+    }
+}
+
+/// The option that says what an argument means by `image.size=160x100`.
+pub(super) fn size_of(argument: &str) -> Option<String> {
+    const PATHS: [&str; 5] = ["image", "image.size", "image.resolution", "size", "resolution"];
+    let (_, value) = argument.split_once('=').filter(|(path, _)| PATHS.contains(&path.trim()))?;
+    let value = value.trim().trim_matches(['(', ')', '[', ']', '"']);
+    let sides: Vec<u32> =
+        value.split(['x', 'X', ',']).map(|side| side.trim().parse()).collect::<Result<_, _>>().ok()?;
+    let [width, height] = sides[..] else { return None };
+    Some(format!("write --size {width}x{height}"))
+}
+
+/// Has faults in arguments of `--set` say the whole argument that is to be written, as a shell takes it: what it is
+/// given without these quotes it takes apart, and quotes of the value go away.
+pub(crate) fn as_arguments(faults: &mut [Diagnostic], overrides: &[Override]) {
+    for fault in faults {
+        let source = fault.span.source;
+        let set = (source as usize).checked_sub(1).and_then(|index| overrides.get(index));
+        let Some(set) = set.filter(|set| set.option == "--set") else { continue };
+        let Some(way) = fault.hint.strip_prefix("write ").filter(|way| !way.starts_with("--")) else { continue };
+        let (span, written, rest) = match &fault.edit {
+            Some(Edit { span, replacement }) if span.source == source => {
+                let bare = way.trim_start_matches('`');
+                let rest = bare.strip_prefix(replacement.as_str()).map_or("", |rest| rest.trim_start_matches('`'));
+                (*span, replacement.as_str(), rest)
+            }
+            None if let Some(written) = way.strip_suffix(", say") => (fault.span, written, ", say"),
+            _ => continue,
+        };
+        let (start, end) = (span.start as usize, span.end as usize);
+        let Some((before, after)) = set.argument.get(..start).zip(set.argument.get(end..)) else { continue };
+        let whole = before.trim_end().ends_with('=') && after.trim().is_empty();
+        // An expression that is all of the value needs no quotes of its own.
+        let bare = written.strip_prefix("\"=").and_then(|inner| inner.strip_suffix('"')).filter(|_| whole);
+        let written = bare.map_or_else(|| written.to_owned(), |inner| format!("={inner}"));
+        let argument = format!("{before}{written}{after}").replace('\'', "'\\''");
+        fault.hint = format!("write --set '{argument}'{rest}");
+    }
+}
+
+/// How a list or map that the scene does not have is set.
+pub(super) fn as_a_list(noun: &str) -> String {
+    match Scene::DEF.fields.iter().find(|field| field.noun == noun).map(|field| field.name) {
+        Some("lights") => {
+            "set it as a whole: --set 'lights=[SphereLight(center: (0, 5, 0), radius: 0.1, power: 100)]'".to_owned()
+        }
+        Some("objects") => "set it as a whole: --set 'objects=[Sphere(center: (0, 0, 0), radius: 1)]'".to_owned(),
+        _ => "set it as a whole".to_owned(),
     }
 }
 

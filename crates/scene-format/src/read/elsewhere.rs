@@ -2,6 +2,7 @@
 
 use super::Reader;
 use super::colors_elsewhere::{color_of_object, numbers_in_text};
+use super::pattern_fields::is_mapping;
 use super::shape_fields::one_ring;
 use super::value::{hex_color, is_picture};
 use crate::codes;
@@ -270,6 +271,10 @@ pub(super) fn field_elsewhere(
             let mended = format!("{}{degrees}, {}{axis}", name_of("fov"), name_of("fov_axis"));
             (value.syntax() != Syntax::Toml).then_some((Some("fov"), mended))
         }
+        "repeat" | "tiling" | "tiles" | "tile" | "frequency" if is_mapping(def) => {
+            let number = value.number().is_some() || numbers(value).is_some();
+            number.then(|| (Some("scale"), format!("{}{}", name_of("scale"), value.lexeme())))
+        }
         "diameter" => convert("radius", |d| d / 2.0),
         "radians" if def.field("degrees").is_some() => {
             let degrees = degrees(value.number()?, value.lexeme());
@@ -300,6 +305,33 @@ pub(super) fn field_elsewhere(
         "resolution" | "size" if def.name == "Scene" => Some((None, format!("{}{}", name_of("image"), image(value)?))),
         _ => None,
     }
+}
+
+/// A sphere by three radii.
+pub(super) fn by_radii(
+    name: &str,
+    value: Item<'_, '_>,
+    item: Item<'_, '_>,
+    def: &'static StructDef,
+) -> Option<(Option<&'static str>, String)> {
+    if def.name != "Sphere" || !matches!(name, "radii" | "semi_axes" | "half_axes" | "radius3") {
+        return None;
+    }
+    let center = item.fields().take(16).find(|(key, _)| key.text() == "center").map(|(_, center)| center.lexeme());
+    Some((None, ellipsoid(value, center)?))
+}
+
+/// What a sphere of three radii is here: one of radius 1 that is stretched about its centre, which may be the origin.
+pub(super) fn ellipsoid(value: Item<'_, '_>, center: Option<&str>) -> Option<String> {
+    let radii = numbers(value).filter(|radii| radii.len() == 3)?.join(", ");
+    Some(match (value.syntax(), center) {
+        (Syntax::Ron, None) => format!("radius: 1, transform: [Scale(({radii}))]"),
+        (Syntax::Ron, Some(at)) => format!("radius: 1, transform: [Scale(factor: ({radii}), about: {at})]"),
+        (syntax, None) => syntax.of_toml(format!("radius = 1, transform = [{{ Scale = [{radii}] }}]")).into_owned(),
+        (syntax, Some(at)) => syntax
+            .of_toml(format!("radius = 1, transform = [{{ Scale = {{ factor = [{radii}], about = {at} }} }}]"))
+            .into_owned(),
+    })
 }
 
 /// Two whole numbers, or `"160x100"`.
@@ -367,6 +399,14 @@ impl Reader<'_> {
                 .hint(format!("write {}", super::hinted(&diffuse)));
             fault.edit = Some(Edit { span: item.span(), replacement: diffuse });
             self.report(fault);
+            return true;
+        }
+        // No material at all, in other languages.
+        if item.kind() == Kind::Word && matches!(lexeme, "null" | "nil" | "none" | "undefined") {
+            let message = format!("a material cannot be {}", super::describe(item));
+            let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message);
+            let expected = "the name of a material between quotes, or a material written here";
+            self.report(fault.expected(expected).hint("write Diffuse(albedo: 0.5), say"));
             return true;
         }
         let bare = match item.kind() {

@@ -124,6 +124,15 @@ impl Reader<'_> {
         let objects = root
             .fields()
             .find(|(key, value)| matches!(&*key.text(), "objects" | "lights") && value.children().next().is_some());
+        // Of itself there is nothing to take, by `Include` neither.
+        let is_itself = || name.other(0).is_some_and(|scene| scene.lexeme() == root.lexeme());
+        if objects.is_some() && self.open.is_empty() && is_itself() {
+            let fault = Diagnostic::error(codes::CIRCLE, name.span(), format!("{} includes itself", file.name));
+            self.report(fault.expected("files that do not need themselves").hint(
+                "leave it out of `include`: what several scenes share stands in a file of its own, without `objects`",
+            ));
+            return false;
+        }
         if let Some((key, _)) = objects {
             let message = format!("an included file has `{}`, which are not taken", key.text());
             let hint = format!("for its objects write Include(file: {}) among the objects", shortened(name.lexeme()));

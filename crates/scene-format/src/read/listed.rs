@@ -1,13 +1,14 @@
 //! What stands where a list is to be: things by their names, `true` for all words that may stand in it.
 
-use super::{Reader, describe, plain};
+use super::{Reader, describe, plain, squeezed};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
-use crate::schema::{Content, FieldDef, Type};
+use crate::schema::{Content, FieldDef, Type, VariantDef};
 use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
 
-/// What a list takes, where these are words by themselves, and the list of all of them; else just that it is a list.
+/// What a list takes, where these are words by themselves, and the list that is meant by `true` or one of them; else
+/// just that it is a list.
 pub(super) fn list_of_words(at: &FieldDef, item: Item<'_, '_>) -> (String, Option<String>) {
     if is_of_points(at) {
         return (super::value::expected_for(at, item), None);
@@ -20,14 +21,27 @@ pub(super) fn list_of_words(at: &FieldDef, item: Item<'_, '_>) -> (String, Optio
         _ => Vec::new(),
     };
     if words.is_empty() || words.len() > MOST {
-        return ("a list: [a, b, c]".to_owned(), None);
+        return ("a list: [a, b, c]".to_owned(), of_one_word(at, item));
     }
     let written: Vec<String> = words
         .iter()
         .map(|word| if item.syntax() == Syntax::Ron { (*word).to_owned() } else { format!("\"{word}\"") })
         .collect();
     let list = format!("[{}]", written.join(", "));
-    (format!("a list: {list}, or some of them"), Some(list))
+    let expected = format!("a list: {list}, or some of them");
+    let is_all = matches!(item.lexeme(), "true" | "True" | "TRUE");
+    (expected, if is_all { Some(list) } else { of_one_word(at, item) })
+}
+
+/// A list of the one word that stands in place of it: `[Depth]`.
+fn of_one_word(at: &FieldDef, item: Item<'_, '_>) -> Option<String> {
+    let Type::List(of) = at.kind else { return None };
+    let Type::Enum(def) = of.resolved() else { return None };
+    let is_word = matches!(item.kind(), Kind::Word | Kind::Text);
+    let same =
+        |kind: &&VariantDef| matches!(kind.content, Content::Unit) && squeezed(kind.name) == squeezed(&item.text());
+    let word = def.variants.iter().filter(|_| is_word).find(same)?.name;
+    Some(if item.syntax() == Syntax::Ron { format!("[{word}]") } else { format!("[\"{word}\"]") })
 }
 
 /// Whether a list is one of points or of rings of points.

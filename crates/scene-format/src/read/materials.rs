@@ -179,6 +179,28 @@ impl Materials {
     }
 }
 
+/// A list of materials as a map of them.
+fn by_names(list: Item<'_, '_>) -> String {
+    const MOST: usize = 3;
+    if list.lexeme().starts_with("[[") && list.syntax() == Syntax::Toml {
+        return "each has a name here, by which objects have it: [materials.a.Diffuse] begins one".to_owned();
+    }
+    let written = |(at, item): (usize, Item<'_, '_>)| {
+        let name = char::from(b'a' + at as u8);
+        let name = if list.syntax() == Syntax::Toml { format!("{name} = ") } else { format!("\"{name}\": ") };
+        format!("{name}{}", item.lexeme())
+    };
+    let few: Vec<String> = list.children().take(MOST).enumerate().map(written).collect();
+    let more = if list.children().count() > MOST { ", .." } else { "" };
+    let map = format!("{{ {}{more} }}", few.join(", "));
+    // A long one is told by its beginning.
+    let is_alone = |item: Item<'_, '_>| item.name().is_some() || item.fields().take(2).count() == 1;
+    match map.len() <= 120 && !map.contains('\n') && !few.is_empty() && list.children().take(MOST).all(is_alone) {
+        true => format!("each has a name here, by which objects have it: {map}"),
+        false => "each has a name here, by which objects have it: { \"a\": Diffuse(albedo: 0.5), .. }".to_owned(),
+    }
+}
+
 impl Reader<'_> {
     /// `{ "name": material }`. They stay with the reader until all objects are read.
     pub(crate) fn materials(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> Option<()> {
@@ -193,6 +215,12 @@ impl Reader<'_> {
                     Syntax::Toml => "a table [materials], with a line for each: white = { Diffuse = { albedo = 1 } }",
                     Syntax::Json => "names with their materials: { \"white\": { \"Diffuse\": { \"albedo\": 1 } } }",
                 };
+                if item.kind() == Kind::List {
+                    let message = format!("{} cannot be {}", super::plain(at.noun), super::describe(item));
+                    let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
+                    self.report(fault.hint(by_names(item)));
+                    return None;
+                }
                 return self.wrong_type(item, at, expected);
             }
         }

@@ -54,7 +54,7 @@ pub(crate) use repeat::{REPEAT, repeat_body};
 pub(crate) use synonyms::{squeezed, synonyms};
 use told::{SHOWN, article_free, field_list, field_words};
 pub(crate) use told::{describe, hinted, plain, shortened};
-pub(crate) use value::{expected, expected_for, hex_color, linear_from_srgb, none};
+pub(crate) use value::{expected, expected_for, hex_color, is_picture, linear_from_srgb, none};
 pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
 
@@ -535,9 +535,8 @@ impl<'r> Reader<'r> {
         };
         // A table under a TOML header is not between brackets that could be edited.
         let edit = edit.filter(|_| item.syntax() == Syntax::Ron || lexeme.starts_with(['{', '[', '"']));
-        let (expected, all) = listed::list_of_words(at, item);
-        let edit = edit.or_else(|| all.filter(|_| matches!(item.lexeme(), "true" | "True" | "TRUE")));
-        self.wrong_kind(item, at.noun, &expected, edit)
+        let (expected, words) = listed::list_of_words(at, item);
+        self.wrong_kind(item, at.noun, &expected, edit.or(words))
     }
 
     /// Reports a value of the wrong kind for a field.

@@ -43,7 +43,12 @@ impl Reader<'_> {
                     .to_owned();
             fault.edit = Some(Edit { span: first.span(), replacement: rows });
         } else if let Some(mended) = named(&values, def) {
-            fault.hint = format!("write `{}`", hinted(&mended));
+            // With its kind, where that is on the same line.
+            let kind = item.name().filter(|name| *name == def.name && values.len() == 1);
+            fault.hint = match kind {
+                Some(kind) => format!("write `{}`", hinted(&format!("{kind}({mended})"))),
+                None => format!("write `{}`", hinted(&mended)),
+            };
             fault.edit = Some(Edit { span: whole, replacement: mended });
         } else if let [only] = def.fields {
             let is_plain = matches!(first.kind(), Kind::Text | Kind::Integer | Kind::Float) && values.len() == 1;
@@ -61,7 +66,7 @@ impl Reader<'_> {
         let header_edit = || header.then(|| item.lexeme().replace("[[", "[").replace("]]", "]"));
         // Nothing, for a thing that needs no field.
         let is_bare = item.is_null() && def.fields.iter().all(|field| field.default.is_some());
-        let edit = header_edit().or_else(|| is_bare.then(|| "{}".to_owned()));
+        let edit = header_edit().or_else(|| is_bare.then(|| "{}".to_owned())).or_else(|| first_alone(item, def));
         let expected = match item.syntax() {
             _ if header => "a table".to_owned(),
             Syntax::Ron => format!("{}({})", def.name, field_words(def)),
@@ -72,6 +77,21 @@ impl Reader<'_> {
         };
         self.wrong_kind(item, def.noun, &expected, edit)
     }
+}
+
+/// The first field of a thing by its value alone, `"render": 16` or `{ "Diffuse": 0.5 }`, where it needs no other.
+fn first_alone(item: Item<'_, '_>, def: &'static StructDef) -> Option<String> {
+    let (first, others) = def.fields.split_first()?;
+    let one = matches!(item.kind(), Kind::Integer | Kind::Float | Kind::List | Kind::Text | Kind::Bool);
+    let enough = def.exactly_one.is_empty() && others.iter().all(|field| field.default.is_some());
+    if !one || !enough || def.name == Scene::DEF.name || !schema::fits(item, &first.kind) {
+        return None;
+    }
+    let value = item.lexeme();
+    Some(match item.syntax() {
+        Syntax::Ron => format!("{}({}: {value})", def.name, first.name),
+        syntax => syntax.of_toml(format!("{{ {} = {value} }}", first.name)).into_owned(),
+    })
 }
 
 /// The values with the names of their fields, where that is certain.

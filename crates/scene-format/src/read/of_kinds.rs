@@ -179,6 +179,7 @@ pub(super) const LIGHTS: Hints = &[
             "quadlight",
             "rectanglelight",
             "rectlight",
+            "rect",
             "arealight",
             "area",
             "disklight",
@@ -190,7 +191,7 @@ pub(super) const LIGHTS: Hints = &[
         "a flat lamp is an object that shines: `Rectangle(material: Emissive(radiance: 5))` in `objects`",
     ),
     (&["meshlight"], "a mesh that shines is a `Mesh` with `material: Emissive(radiance: 5)`, in `objects`"),
-    (&["pointlight", "point", "omni"], "a point light is a small sphere: radius: 0.01, intensity: .. in W/sr"),
+    (&["pointlight", "point", "omni"], "a point light is a small sphere: radius: 0.1, intensity: .. in W/sr"),
     (
         &["spotlight", "spot", "ies", "goniometric", "goniometriclight", "projector", "projectionlight"],
         "there is no spotlight: put a `SphereLight` into a tube or box of objects, open to one side",

@@ -14,6 +14,11 @@ fn is_pattern(def: &'static StructDef) -> bool {
     is_texture(def.name) && def.field("a").is_some()
 }
 
+/// Whether these are the fields of a mapping itself.
+pub(super) fn is_mapping(def: &'static StructDef) -> bool {
+    matches!(def.name, "Uv" | "Planar" | "Spherical" | "Triplanar" | "Object" | "World") && def.field("scale").is_some()
+}
+
 /// The mapping by which a pattern is scaled, and how many numbers it takes for each axis.
 fn scaled_by(def: &'static StructDef) -> (&'static str, usize) {
     if matches!(def.name, "Noise" | "Wood" | "Marble" | "Voronoi") { ("Object", 3) } else { ("Uv", 2) }

@@ -39,6 +39,12 @@ const OPERANDS: &[&[&str]] = &[
     &["b", "right", "tool", "second", "subtrahend", "shape2", "object2", "rhs"],
 ];
 
+const A: &[&str] = &["a", "p0", "v0"];
+const B: &[&str] = &["b", "p1", "v1"];
+const C: &[&str] = &["c", "p2", "v2"];
+
+const POINTS: [&str; 2] = ["points: [(x, y, z), ..]", "points = [[x, y, z], ..]"];
+
 const CENTER: &[&str] = &["center", "centre", "position", "pos", "location"];
 const BASE: &[&str] = &["base", "base_center", "bottom", "start", "from"];
 const HEIGHT: &[&str] = &["height", "length", "h"];
@@ -85,6 +91,10 @@ const ROWS: &[Row] = &[
     ("Lines", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
     ("Dots", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
     ("Texture", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
+    ("Polygon", &[A, B, C, &["d", "p3", "v3"]], &["points"], POINTS, points),
+    ("Polygon", &[A, B, C], &["points"], POINTS, points),
+    ("Polygon", &[&["p1", "v1"], &["p2", "v2"], &["p3", "v3"], &["p4", "v4"]], &["points"], POINTS, points),
+    ("Polygon", &[&["p1", "v1"], &["p2", "v2"], &["p3", "v3"]], &["points"], POINTS, points),
     ("Difference", OPERANDS, &["objects"], ["objects: [a, b]", "objects = [a, b]"], objects),
     ("Union", OPERANDS, &["objects"], ["objects: [a, b]", "objects = [a, b]"], objects),
     ("Intersection", OPERANDS, &["objects"], ["objects: [a, b]", "objects = [a, b]"], objects),
@@ -255,6 +265,12 @@ fn size(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
 fn objects(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
     let all: Vec<&str> = values.iter().map(|value| value.lexeme()).collect();
     Some(format!("{}[{}]", Fields(syntax).name("objects"), all.join(", ")))
+}
+
+/// The corners of a polygon.
+fn points(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let all: Vec<&str> = values.iter().map(|value| point(value).map(|_| value.lexeme())).collect::<Option<_>>()?;
+    Some(format!("{}[{}]", Fields(syntax).name("points"), all.join(", ")))
 }
 
 /// Two colours, whatever they are.

@@ -1,6 +1,7 @@
 //! Kinds that a field `type` tells, as other programs write them: `{"type": "Sphere", "radius": 1}`.
 
 use super::hints::{kind_elsewhere, other_kind};
+use super::synonyms::squeezed;
 use super::variant::{choices, of_kind};
 use super::{Reader, hinted, shortened};
 use crate::codes;
@@ -30,21 +31,23 @@ impl Reader<'_> {
         let (key, value) = item.fields().take(MOST).find(is_one)?;
         let told = value.text();
         let named = item.fields().take(2).count() == 1;
+        let theirs = other_kind(&told, def);
         // What a kind of ours has one of is no kind of this choice.
         let ours = |(key, _): (Item<'_, '_>, Item<'_, '_>)| def.variant(&key.text()).is_some();
-        if item.fields().take(MOST).any(ours) || named && def.variants.len() < 2 {
+        if item.fields().take(MOST).any(ours) || named && def.variants.len() < 2 && theirs.is_none() {
             return None;
         }
         let folded = |variant: &&VariantDef| variant.name.eq_ignore_ascii_case(&told);
         let near = || {
-            let theirs = kind_elsewhere(&told, def);
-            let guess = || other_kind(&told, def).is_none().then(|| suggest::nearest(&told, variants(def))).flatten();
-            theirs.or_else(guess).and_then(|word| def.variant(word))
+            let same = kind_elsewhere(&told, def);
+            let guess = || theirs.is_none().then(|| suggest::nearest(&told, variants(def))).flatten();
+            same.or_else(guess).and_then(|word| def.variant(word))
         };
         let message = format!("the kind of {} stands before its fields, not in a field `{}`", of_kind(def), key.text());
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, key.span(), message).expected(choices(def, item.syntax()));
-        // Of one kind there is no choice.
-        let only = || def.variants.first().filter(|_| def.variants.len() == 1);
+        // Of one kind there is no choice, but for what is something else here: a lamp with a flat side, a sun.
+        let is_point = matches!(&*squeezed(&told), "point" | "omni" | "sphere");
+        let only = || def.variants.first().filter(|_| def.variants.len() == 1 && (is_point || theirs.is_none()));
         let meant = def.variants.iter().find(folded).or_else(near).or_else(only);
         // These two are names of ours, too.
         if meant.is_none() && matches!(&*key.text(), "kind" | "shape") {
@@ -70,8 +73,12 @@ impl Reader<'_> {
                 fault.edit = written.map(|replacement| Edit { span: item.span(), replacement });
             }
             None => {
-                fault.hint = match other_kind(&told, def) {
-                    Some(hint) => hint.to_owned(),
+                fault.hint = match theirs {
+                    Some(hint) => {
+                        let message = format!("`{}` is not a kind of {}", shortened(&told), of_kind(def));
+                        (fault.code, fault.span, fault.message) = (codes::UNKNOWN_VARIANT, value.span(), message);
+                        hint.to_owned()
+                    }
                     None => {
                         let example = def.variants.iter().find(|variant| matches!(variant.content, Content::Struct(_)));
                         let example = example.map_or(String::new(), |variant| way(variant, item.syntax()));

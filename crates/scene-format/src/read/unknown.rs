@@ -2,6 +2,7 @@
 
 use super::elsewhere::{self, Fields};
 use super::hints::{self, field_of_others, other_way, right_place};
+use super::pattern_fields::is_mapping;
 use super::synonyms::synonyms;
 use super::value::expected_for;
 use super::{LOOK_AT, Reader, field_list, hinted, is_expression, names, pattern_fields, together, typed};
@@ -118,7 +119,8 @@ impl Reader<'_> {
     /// Reports a field that there is not; gives what is meant.
     fn unknown_field(&mut self, unknown: &Unknown<'_, '_, '_>, mistyped: &Mistyped<'_, '_>) -> Meant {
         let &Unknown { key, value, name, item, def } = unknown;
-        if RESERVED.contains(&name) && pattern_fields::of_mapping(name, value, item, def).is_none() {
+        let is_mapped = pattern_fields::of_mapping(name, value, item, def).is_some() || is_mapping(def);
+        if RESERVED.contains(&name) && !(name == "repeat" && is_mapped) {
             self.report(reserved(name, key.span(), def));
             return Meant::Nothing;
         }
@@ -133,7 +135,8 @@ impl Reader<'_> {
             }
             return Meant::Unreadable(together.fields);
         }
-        if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def) {
+        let of_sphere = || elsewhere::by_radii(name, value, item, def);
+        if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def).or_else(of_sphere) {
             return self.written_otherwise(fault, unknown, mistyped, (meant, mended));
         }
         if let Some((hint, edit)) = typed::kind_as_list(name, value, def) {

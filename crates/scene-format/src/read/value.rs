@@ -203,6 +203,12 @@ impl Reader<'_> {
                 return self.number_in_text(item, at, way, number);
             }
         } else if let Kind::Tuple | Kind::List = item.kind() {
+            if let Some(way) = of_three(item, at) {
+                let message = format!("{} cannot be {}", plain(at.noun), describe(item));
+                let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected_for(at, item));
+                self.report(fault.hint(way));
+                return None;
+            }
             edit = elsewhere::number_elsewhere(item, at);
             if let Some(name) = item.name().filter(|name| edit.is_none() && name.starts_with(char::is_lowercase)) {
                 let message = format!("{} cannot be {}", plain(at.noun), describe(item));
@@ -324,6 +330,9 @@ impl Reader<'_> {
         if matches!(at.kind, Type::Optional(Type::Number)) && (value == 0.0 || value == f64::INFINITY) {
             fault.hint = format!("{} turns it off", none(item.syntax()));
             fault.edit = Some(Edit { span: item.span(), replacement: none(item.syntax()).to_owned() });
+        }
+        if value == 0.0 && at.noun == "the radius of a sphere light" {
+            fault.hint = "a light without size is a small sphere: radius: 0.1".to_owned();
         }
         if at.name == "fov" && (180.0..=240.0).contains(&value) && range.high == 180.0 {
             let way = format!(
@@ -522,6 +531,20 @@ optional!(
     crate::desc::Albedo
 );
 
+/// What is said of three numbers where one stands: an ellipsoid's radii, indices of refraction by wavelengths.
+fn of_three(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    let three = elsewhere::numbers(item).filter(|three| three.len() == 3 && item.name().is_none())?;
+    match (at.name, at.noun) {
+        ("radius", "the radius of a sphere") => {
+            let origin = elsewhere::vector(item, &["0", "0", "0"]);
+            let way = elsewhere::ellipsoid(item, Some(&origin))?;
+            Some(format!("an ellipsoid is a sphere that is stretched about its centre: `{way}`"))
+        }
+        ("ior", _) => Some(format!("there are no wavelengths: write one number, {}", three[1])),
+        _ => None,
+    }
+}
+
 /// The value of a hexadecimal colour `#rrggbb` (sRGB), linear.
 pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {
     let digits =
@@ -531,7 +554,7 @@ pub(crate) fn hex_color(text: &str) -> Option<[f64; 3]> {
 }
 
 /// Whether a text looks like the path of a picture.
-pub(super) fn is_picture(text: &str) -> bool {
+pub(crate) fn is_picture(text: &str) -> bool {
     let (_, suffix) = text.rsplit_once('.').unwrap_or_default();
     ["png", "jpg", "jpeg", "hdr", "exr"].iter().any(|known| suffix.eq_ignore_ascii_case(known))
 }

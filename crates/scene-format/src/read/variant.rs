@@ -154,10 +154,18 @@ impl Reader<'_> {
             item.head(),
             format!("a {} cannot be {}", def.noun, describe(item))
                 .replace("a acc", "an acc")
+                .replace("a caustics", "caustics")
+                .replace("an object of fields", "fields without the name of a kind")
                 .replace("a obj", "an obj"),
         )
         .expected(choices(def, item.syntax()));
-        if let Some((hint, edit)) = super::colors_elsewhere::color_as_material(item, def) {
+        if item.kind() == Kind::Bool && item.lexeme() == "false" && def.variant("None").is_some() {
+            fault.hint = format!("write {}", super::none(item.syntax()));
+            fault.edit = Some(Edit { span: item.span(), replacement: super::none(item.syntax()).to_owned() });
+        } else if matches!(item.kind(), Kind::Map) && item.fields().next().is_none() && def.noun == "object" {
+            fault.message = "these braces are empty: an object is a kind with its fields".to_owned();
+            fault.hint = "write Sphere(center: (0, 0, 0), radius: 1), say".to_owned();
+        } else if let Some((hint, edit)) = super::colors_elsewhere::color_as_material(item, def) {
             (fault.hint, fault.edit) = (hint, edit);
         } else if matches!(item.kind(), Kind::Struct | Kind::Map) {
             // The fields alone, without the name of the kind: say which kind has them.
@@ -239,6 +247,11 @@ impl Reader<'_> {
                 .filter(|_| fields().count() <= used)
                 .map(|inner| Edit { span: Span { end: inner.span().end, ..span }, replacement: mended });
             self.report(fault);
+            return None;
+        }
+        if let Some(polygon) = inner.filter(|_| elsewhere == Some("Rectangle")).and_then(by_corners) {
+            let way = super::hinted(&polygon);
+            self.report(fault.hint(format!("what is said by its corners is a polygon: {way}")));
             return None;
         }
         // The nearest kind of ours, with other fields than theirs: reading on would tell of every one of them.
@@ -393,6 +406,17 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// What has a list of corners in another program, as a polygon.
+fn by_corners(inner: Item<'_, '_>) -> Option<String> {
+    let is_corners = |name: &str| matches!(name, "corners" | "points" | "vertices");
+    let (_, points) = inner.fields().find(|(key, value)| is_corners(&key.text()) && value.kind() == Kind::List)?;
+    let points = points.lexeme();
+    Some(match inner.syntax() {
+        Syntax::Ron => format!("Polygon(points: {points})"),
+        syntax => syntax.of_toml(format!("{{ Polygon = {{ points = {points} }} }}")).into_owned(),
+    })
 }
 
 /// What a choice is a choice of kinds of: the noun `kind of noise` says it itself.

@@ -63,6 +63,8 @@ pub(super) fn ahead(text: &str, start: usize) -> Option<usize> {
         return None;
     }
     let negated = body.strip_prefix(['-', '+']).is_some_and(|rest| names_are_given(text, rest));
+    // `-(3)`
+    let negated = negated || body.starts_with("-(") || body.starts_with("+(");
     let is_plain =
         number_kind(body).is_some() || !known && !negated && !body[1..].bytes().any(|byte| OPERATORS.contains(&byte));
     (!is_plain && depth == 0 && is_expression(&ours(body))).then_some(body.len())

@@ -226,7 +226,7 @@ impl<'p> Parser<'p> {
             }
             _ => {}
         }
-        if self.angle_brackets(start) || self.kind_with_brackets(start) {
+        if self.of_numpy(start) || self.angle_brackets(start) || self.kind_with_brackets(start) {
             return;
         }
         if matches!(word, "NaN" | "nan" | "Infinity" | "inf" | "infinity" | "Inf") && alone {
@@ -279,6 +279,22 @@ impl<'p> Parser<'p> {
     fn bare_text(&self) -> usize {
         let line = super::line_ahead(self.text, self.at);
         line.split([',', ']', '}', ':']).next().map_or(0, |text| text.trim_end().len()).max(1)
+    }
+
+    /// `np.float64(1.0)` or `array([0., 1.])`, as NumPy prints its values, which is reported.
+    fn of_numpy(&mut self, start: usize) -> bool {
+        let line = super::line_ahead(self.text, start);
+        let Some((length, mended)) = numpy(line) else { return false };
+        let name = &line[..line.find('(').unwrap_or(line.len())];
+        self.at = start + length;
+        let found = self.span(start, self.at);
+        let message = format!("JSON has no `{name}(..)`: this is a value of NumPy");
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message)
+            .expected(VALUES)
+            .hint(format!("write {mended}; in Python, .tolist() gives plain numbers"));
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        self.broken(start, fault);
+        true
     }
 
     /// `Diffuse(albedo: 1)` or `vec3(1, 2, 3)`, as other languages have it, which is reported.
@@ -448,6 +464,35 @@ fn no_round_brackets(found: Span, expected: String, mended: Option<String>) -> D
         fault.edit = Some(Edit { span: found, replacement: mended });
     }
     fault
+}
+
+/// The value of NumPy that a line begins with, as JSON has it, and its length as it is written.
+fn numpy(line: &str) -> Option<(usize, String)> {
+    const KINDS: [&str; 14] = [
+        "float64", "float32", "float16", "int64", "int32", "int16", "int8", "uint8", "uint16", "uint32", "float",
+        "int", "array", "asarray",
+    ];
+    let open = line.find('(')?;
+    let name = line[..open].trim_start_matches("numpy.").trim_start_matches("np.");
+    let close = closing(line, open).filter(|_| KINDS.contains(&name))?;
+    let inner = line[open + 1..close].split(", dtype").next().unwrap_or_default().trim();
+    let is_number = |sign: char| sign.is_ascii_digit() || matches!(sign, '.' | '-' | '+' | 'e' | 'E');
+    let (mut out, mut rest) = (String::with_capacity(inner.len() + 8), inner);
+    while let Some(sign) = rest.chars().next() {
+        let length = rest.find(|sign| !is_number(sign)).unwrap_or(rest.len());
+        let number = &rest[..length];
+        match number.strip_suffix('.') {
+            _ if length == 0 && !matches!(sign, '[' | ']' | ',' | ' ') => return None,
+            _ if length == 0 => out.push(sign),
+            // JSON has digits after a point.
+            Some(whole) if is_json_number(whole) => out += &format!("{whole}.0"),
+            _ if is_json_number(number) => out += number,
+            _ => return None,
+        }
+        rest = &rest[length.max(sign.len_utf8())..];
+    }
+    let is_list = out.starts_with('[') && out.ends_with(']');
+    (is_list || is_json_number(&out)).then_some((close + 1, out))
 }
 
 /// Where the bracket is closed that opens at a byte of a line.

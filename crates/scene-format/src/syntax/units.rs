@@ -2,6 +2,7 @@
 
 use super::decode;
 use crate::diagnostic::{Diagnostic, Edit};
+use crate::expression::TEMPERATURES;
 
 /// Those in which the language counts as well.
 const SAME: [&str; 12] = ["f", "deg", "degree", "degrees", "w", "watt", "watts", "px", "s", "sec", "seconds", "m"];
@@ -42,6 +43,12 @@ pub(super) fn joined(mut fault: Diagnostic, lexeme: &str) -> Diagnostic {
         return fault.hint(format!("the sides of a picture are two numbers: width: {width}, height: {height}"));
     }
     let Some((number, unit)) = parted(lexeme) else { return fault };
+    if matches!(unit, "K" | "Kelvin" | "kelvin") && TEMPERATURES.contains(&decode::number(number)) {
+        let mended = format!("\"=blackbody({number})\"");
+        fault = fault.hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: fault.span, replacement: mended });
+        return fault;
+    }
     fault = fault.hint(way(Some(number), unit));
     if SAME.contains(&unit.to_ascii_lowercase().as_str()) {
         fault.edit = Some(Edit { span: fault.span, replacement: number.to_owned() });

@@ -39,8 +39,8 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
         let own = matches!(object.material, MaterialRef::Default);
         let pictured =
             material.is_some_and(wants_uv) || own && data.materials.iter().any(|named| wants_uv(&named.material));
+        let inline = matches!(object.geometry, Geometry::Inline(_));
         if pictured && data.uvs.is_empty() {
-            let inline = matches!(object.geometry, Geometry::Inline(_));
             // A material of the file has no `mapping` to write, and a mesh that is written out no coordinates.
             let way = if inline {
                 "write `mapping: Triplanar()` in the texture, which needs none"
@@ -73,7 +73,10 @@ pub fn warn(desc: &SceneDesc, loaded: &Loaded, placed: &Placed, curved: &[Curved
                     "this glass is inside out: its faces are wound the other way",
                 )
                 .expected("faces whose corners go round counterclockwise, seen from outside")
-                .hint("flip its faces and export it again: in Blender Mesh > Normals > Recalculate Outside"),
+                .hint(match inline {
+                    true => "turn the numbers of each face round: [0, 2, 1] for [0, 1, 2]",
+                    false => "flip its faces and export it again: in Blender Mesh > Normals > Recalculate Outside",
+                }),
             );
         }
     }
