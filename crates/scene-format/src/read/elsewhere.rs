@@ -403,10 +403,7 @@ impl Reader<'_> {
         }
         // No material at all, in other languages.
         if item.kind() == Kind::Word && matches!(lexeme, "null" | "nil" | "none" | "undefined") {
-            let message = format!("a material cannot be {}", super::describe(item));
-            let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message);
-            let expected = "the name of a material between quotes, or a material written here";
-            self.report(fault.expected(expected).hint("write Diffuse(albedo: 0.5), say"));
+            self.report(no_material(item));
             return true;
         }
         let bare = match item.kind() {
@@ -440,6 +437,14 @@ impl Reader<'_> {
         self.report(fault);
         true
     }
+}
+
+/// What is said of a word for nothing where a material stands.
+fn no_material(item: Item<'_, '_>) -> Diagnostic {
+    let message = format!("a material cannot be {}", super::describe(item));
+    Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+        .expected("the name of a material between quotes, or a material written here")
+        .hint("write Diffuse(albedo: 0.5), say")
 }
 
 /// `"oak"` for `Material("oak")`, which is a name.
