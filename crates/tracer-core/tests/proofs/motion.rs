@@ -139,6 +139,31 @@ fn the_picture_is_the_mean_of_pictures_that_stand_still() {
     }
 }
 
+/// What moves where no light comes, in a closed box, changes nothing, to the last bit: samples, what pixels share,
+/// guides, and light paths, of which each quarter brings a fourth.
+#[test]
+fn light_paths_of_quarters_are_all_of_them() {
+    let room = |center: &str| {
+        read(&format!(
+            r#"Scene(
+            animation: Animation(fps: 1), image: Image(width: 40, height: 32),
+            camera: Camera(position: (0, 1, 2.8), look_at: (0, 0.8, 0), fov: 60, shutter: 1),
+            lights: [SphereLight(center: (0.6, 2.4, 0.5), radius: 0.08, power: 60)],
+            objects: [
+                Box(center: (0, 1.5, 0), size: (6, 3, 6), material: Diffuse(albedo: 0.6)),
+                Sphere(center: (0, 0.7, 0), radius: 0.5, material: Transparent(ior: 1.5)),
+                Box(center: (-2, 0.5, -2), size: 0.9),
+                Box(center: ({center}, 0.5, -2), size: 0.2),
+            ])"#
+        ))
+    };
+    let [still, moving] = [room("-2"), room("\"=0.3*time - 2\"")].map(|desc| compiled(&desc));
+    assert_eq!((still.moments_of_sample(), moving.moments_of_sample()), (0, 4));
+    let [still, moving] = [&still, &moving].map(|scene| render(scene, &options(2), &Unobserved));
+    assert!(still.caustics && still.reuse && still.counters.photon_rays > 1000);
+    assert!(bits(&still) == bits(&moving));
+}
+
 #[test]
 fn engine_and_reference_agree() {
     let samples = Samples { engine: 32 * 8, reference: 256 };

@@ -23,6 +23,27 @@ const COPLANAR_FIND: &str = "crates/kernels/src/bvh/coplanar/find.rs";
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
     Mutant {
+        name: "quarters-see-one-moment",
+        file: "crates/tracer-core/src/scene.rs",
+        find: "let number = (sample / PARTS).wrapping_mul(QUARTERS).wrapping_add(quarter);",
+        replace: "let number = (sample / PARTS).wrapping_mul(QUARTERS).wrapping_add(quarter & 0);",
+        caught_by: proofs(&["motion::sixteen_samples_show_no_ghosts"]),
+    },
+    Mutant {
+        name: "all-light-paths-in-each-quarter",
+        file: "crates/tracer-core/src/engine/techniques/light_paths.rs",
+        find: "film.quarter.map_or(all, |quarter| quarter_of(all, quarter))",
+        replace: "film.quarter.map_or(all, |_| all)",
+        caught_by: proofs(&["motion::engine_and_reference_agree", "motion::light_paths_of_quarters_are_all_of_them"]),
+    },
+    Mutant {
+        name: "noise-of-the-background-that-is-left-out",
+        file: "crates/tracer-core/src/film/missed.rs",
+        find: "self.squares.take(pixel, samples.luminance(k));",
+        replace: "",
+        caught_by: proofs(&["backdrop::noise_is_of_what_is_before_the_background"]),
+    },
+    Mutant {
         name: "solids-end-at-what-they-touch",
         file: "crates/tracer-core/src/compile/csg/touching.rs",
         find: "const PART: f64 = 1.0 / 65_536.0;",
