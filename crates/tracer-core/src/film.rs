@@ -94,7 +94,7 @@ struct Taken {
 #[derive(Clone, Debug, PartialEq, Zeroable)]
 struct Splats {
     sums: Sums,
-    /// Sum of squares of the luminance; where the background is kept by itself, of what is before it.
+    /// Sum of squares of the luminance; where the background is kept by itself, of what is before it and of the paper.
     squares: Squares,
 }
 
@@ -281,6 +281,8 @@ pub struct Film {
     halves: bool,
     /// Whether what is seen behind everything is summed by itself, too.
     backdrop: bool,
+    /// Luminance of what the picture is laid over then, in the sums' own unit: the noise is that of the whole.
+    pub(crate) paper: f64,
     /// What is counted for mattes.
     mattes: MattesKept,
     /// The light groups that are summed by themselves, too.
@@ -342,6 +344,7 @@ impl Film {
             layers: Vec::new(),
             halves: false,
             backdrop: false,
+            paper: 0.0,
             mattes: MattesKept::default(),
             groups: FilmGroups::default(),
             first_tile,

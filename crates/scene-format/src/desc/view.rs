@@ -45,10 +45,10 @@ scene_struct! {
         /// standard error, relative to the mean luminance, as the report has it. 0.01 is hardly seen. It is told by how
         /// two halves of the samples differ, 0.8 to 1.2 times the true error (docs/noise.md), where few pixels bear it
         /// half to twice as much, and where something moves while the shutter is open by how they scatter, which is
-        /// more. With `alpha` or `backdrop` it is that of what is before the background. `samples` are the most. It is
-        /// looked at after whole passes only, four times while the samples double, so the picture depends on nothing
-        /// else; first when all pixels have 16 samples, where something moves 16 or 64. What is rarer is missing in a
-        /// picture that ends then, and in its noise. `None`: all samples.
+        /// more. With `alpha` or `backdrop` it is that of the picture without the background. `samples` are the most.
+        /// It is looked at after whole passes only, four times while the samples double, so the picture depends on
+        /// nothing else; first when all pixels have 16 samples, where something moves 16 or 64. What is rarer is
+        /// missing in a picture that ends then, and in its noise. `None`: all samples.
         noise: Option<Spanned<f64>> = None => Rule::between("a relative error", 0.0, 1.0);
         /// The rendering ends when the program has run so long. `samples` are the most. `None`: all samples.
         time: Option<Spanned<f64>> = None => Rule::length("a time").unit("in seconds");

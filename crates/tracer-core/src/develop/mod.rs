@@ -64,6 +64,16 @@ pub struct Image {
     pub light_groups: Vec<(String, Vec<f32>)>,
 }
 
+impl Look {
+    /// The luminance of what the picture is laid over, as the radiance that looks like it; zero where that is nothing.
+    pub(crate) fn paper(&self) -> f64 {
+        match self.backdrop {
+            Backdrop::Color(color) => crate::film::luminance(color) / libm::exp2(self.exposure),
+            Backdrop::Background | Backdrop::Clear => 0.0,
+        }
+    }
+}
+
 /// Develops the film, its rows over the threads of rayon's current pool. The picture does not depend on their number.
 pub fn develop(film: &Film, look: &Look) -> Image {
     developed(film, look, |x, y| film.radiance(x, y), |x, y| film.background(x, y))

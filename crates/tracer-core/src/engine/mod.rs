@@ -162,6 +162,7 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     film.threads = if options.threads == 0 { available_threads() } else { options.threads };
     film.statistics = options.statistics.then(Default::default);
     film.moments = scene.moments_of_sample();
+    film.lie_over(scene.look.paper());
     if film.is_begun() && film.unfinished.is_none() && film.whole >= samples {
         return Ok(film);
     }
@@ -294,6 +295,7 @@ fn painter<'a>(
         statistics: options.statistics,
         limit: film.clamp.map(|limit| f64::from(limit) / engine.scene.radiance_unit),
         backdrop: film.has_backdrop(),
+        paper: film.paper,
         mattes: film.mattes(),
         lamps: film.place_of_lamps(),
         until: None,

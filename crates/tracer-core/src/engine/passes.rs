@@ -168,6 +168,8 @@ pub struct Painter<'a> {
     pub limit: Option<f64>,
     /// What is seen behind everything is summed by itself.
     pub backdrop: bool,
+    /// Luminance of what the picture is laid over then, in the film's unit.
+    pub paper: f64,
     /// What is counted for mattes.
     pub mattes: MattesKept,
     /// Where the layer `emission` stands among the sums of samples, where halves are kept.
@@ -410,7 +412,7 @@ impl Painter<'_> {
         common: &[[u8; 2]],
     ) {
         if self.backdrop {
-            tile.add_missed(samples, layers, slots.start, common, half);
+            tile.add_missed(samples, layers, slots.start, common, (half, self.paper));
         }
         if half == 1 {
             tile.add_half(samples, common);

@@ -196,7 +196,7 @@ impl<R: Read> SavedFilm<R> {
         (film.counters, film.costs) = (head.counters, head.costs);
         (film.reuse, film.caustics, film.layers, film.halves) = (head.reuse, head.caustics, layers, head.halves);
         (film.backdrop, film.mattes, film.groups) = (head.backdrop, head.mattes, head.groups);
-        film.moments = head.moments;
+        (film.moments, film.paper) = (head.moments, head.paper);
         Ok(film)
     }
 

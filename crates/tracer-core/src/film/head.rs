@@ -45,6 +45,7 @@ pub struct FilmHead {
     pub(super) halves: bool,
     pub(super) moments: u32,
     pub(super) backdrop: bool,
+    pub(super) paper: f64,
     pub(super) mattes: MattesKept,
     pub(super) groups: FilmGroups,
 }
@@ -75,6 +76,7 @@ impl FilmHead {
             halves: film.halves,
             moments: film.moments,
             backdrop: film.backdrop,
+            paper: film.paper,
             mattes: film.mattes,
             groups: film.groups.clone(),
         }
@@ -109,7 +111,8 @@ impl FilmHead {
         out.extend(Part::numbers(self.part).into_iter().flat_map(u32::to_le_bytes));
         let counters = counters_as_array(self.counters);
         let costs = [self.unit, self.costs.total, self.costs.reuse, self.costs.caustics, self.costs.clamp];
-        let reals = costs.into_iter().chain(self.octave.differences).chain([self.octave.pixels]).map(f64::to_bits);
+        let reals =
+            costs.into_iter().chain(self.octave.differences).chain([self.octave.pixels, self.paper]).map(f64::to_bits);
         out.extend(counters.into_iter().chain(reals).flat_map(u64::to_le_bytes));
         out.extend((self.layers.len() as u32).to_le_bytes());
         for SavedLayer { name, units } in &self.layers {
@@ -160,6 +163,7 @@ impl FilmHead {
         let costs = Costs { total: real(from)?, reuse: real(from)?, caustics: real(from)?, clamp: real(from)? };
         let octave =
             Octave { samples: of_octave, differences: [real(from)?, real(from)?, real(from)?], pixels: real(from)? };
+        let paper = real(from)?;
         let mut layers = Vec::new();
         for _ in 0..number(from)? {
             let name = text(from)?;
@@ -189,6 +193,7 @@ impl FilmHead {
             halves,
             moments,
             backdrop,
+            paper,
             mattes,
             groups,
         };
@@ -218,6 +223,7 @@ impl FilmHead {
             && (self.unit > 0.0 && self.unit.is_normal())
             && self.layers.iter().flat_map(|layer| layer.units).all(f64::is_finite)
             && rest
+            && (self.paper >= 0.0 && self.paper.is_finite())
             && matches!(self.moments, 0 | 1 | QUARTERS)
             && self.samples.end() >= self.samples.start()
             && *self.samples.end() <= end

@@ -324,6 +324,7 @@ fn empty(head: &FilmHead, of: Crop) -> Result<Film, MergeError> {
     (film.reuse, film.caustics, film.moments) = (head.reuse, head.caustics, head.moments);
     film.keep_halves(head.halves);
     film.keep_backdrop(head.backdrop);
+    film.paper = head.paper;
     film.keep_mattes(head.mattes);
     film.keep_groups(head.groups.clone());
     film.layers = head.film_layers().map_err(|error| MergeError::Part { part: 0, error })?;

@@ -9,21 +9,23 @@ use tracer_kernels::layers::LayerSamples;
 
 impl Tile {
     /// Adds samples of the block whose first item this is, those of [`Tile::add`], whose camera rays have hit nothing:
-    /// all that they have is the background, and no noise of what is before it. Where halves are kept, what is seen of
-    /// it is coverage, not light, as lamps are.
+    /// all that they have is the background. The squares that tell the noise have in its place the luminance of the
+    /// `paper` that the picture will be laid over, or nothing. Where halves are kept, what is seen of the background is
+    /// coverage, not light, as lamps are.
     pub(crate) fn add_missed(
         &mut self,
         samples: impl Samples,
         layers: &LayerSamples,
         first_slot: usize,
         pixels: &[[u8; 2]],
-        half: usize,
+        (half, paper): (usize, f64),
     ) {
         for &[k, pixel] in pixels {
             let (k, pixel) = (usize::from(k), usize::from(pixel));
             if is_hit(layers, first_slot + k) {
                 continue;
             }
+            self.squares.add(pixel, paper);
             let Some(sample) = samples.whole(k).filter(|&sample| sample != [0; 3]) else { continue };
             self.missed.get_or_insert_with(|| Box::new(Sums::zeroed())).add(pixel, sample);
             self.squares.take(pixel, samples.luminance(k));
@@ -36,6 +38,12 @@ impl Film {
     /// Keeps what is seen behind everything by itself, if that is wanted; before anything is added.
     pub(crate) fn keep_backdrop(&mut self, backdrop: bool) {
         self.backdrop = backdrop;
+    }
+
+    /// Takes down the luminance of what the picture will be laid over, as radiance; zero: nothing.
+    pub(crate) fn lie_over(&mut self, paper: f64) {
+        let paper = paper / self.unit;
+        self.paper = if self.backdrop && paper.is_finite() { paper } else { 0.0 };
     }
 
     /// Whether it keeps what is seen behind everything by itself: the scene has a [`crate::Backdrop`].

@@ -140,11 +140,11 @@ impl Film {
             return;
         }
         let Octave { samples: before, differences: [last, half, _], .. } = self.octave;
-        let light = self.light_count();
+        let (light, paper) = (self.light_count(), self.paper);
         let put_down = |tile: &mut Tile| {
             let mut borne = Borne::default();
             for pixel in 0..PIXELS {
-                let mean = tile.luminance(pixel, light);
+                let mean = tile.luminance(pixel, light, paper);
                 // Of the first half and of the second.
                 let difference = mean - f64::from(tile.octave[pixel]);
                 borne.add(4.0 * difference * difference);
@@ -171,14 +171,14 @@ impl Film {
     }
 
     /// Estimated variance of a pixel's mean luminance, were its samples independent (they are better than that); where
-    /// the background is kept by itself, of what is before it. Zero below two samples.
+    /// the background is kept by itself, of what is before it and what that is laid over. Zero below two samples.
     pub fn variance(&self, x: u32, y: u32) -> f64 {
         let (tile, pixel) = self.place(x, y);
         if tile.samples[pixel] < 2 {
             return 0.0;
         }
         let n = f64::from(tile.samples[pixel]);
-        let mean = tile.of_samples(pixel);
+        let mean = tile.of_samples(pixel, self.paper);
         let of_samples = ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0);
         // Light paths come one by one: the variance of such a sum is about the sum of squares.
         let splats = tile.splats.as_ref().map_or(0.0, |splats| splats.squares.of(pixel));
@@ -195,16 +195,18 @@ impl Film {
         if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
     }
 
-    /// Mean luminance of a pixel in the sums' own unit, without the background where that is kept by itself.
+    /// Mean luminance of a pixel in the sums' own unit; where the background is kept by itself, without it, over what
+    /// the picture is laid over.
     fn mean_luminance(&self, x: u32, y: u32) -> f64 {
-        (luminance(self.radiance(x, y)) - luminance(self.background(x, y))) / self.unit
+        let light = (luminance(self.radiance(x, y)) - luminance(self.background(x, y))) / self.unit;
+        if self.paper > 0.0 { light + self.paper * (1.0 - self.alpha(x, y)) } else { light }
     }
 
     /// Root mean square over the pixels of their standard error, relative to the mean luminance: the noise of the
-    /// picture as one number; where the background is kept by itself, of what is before it. It is seen from how much
-    /// pictures of other samples differ; of parts that were merged, and where something moves while the shutter is
-    /// open, it is what independent samples would have, which is more. Zero where no pixel has two samples: nobody can
-    /// tell.
+    /// picture as one number; where the background is kept by itself, of what is before it and what that is laid over.
+    /// It is seen from how much pictures of other samples differ; of parts that were merged, and where something moves
+    /// while the shutter is open, it is what independent samples would have, which is more. Zero where no pixel has two
+    /// samples: nobody can tell.
     pub fn relative_noise(&self) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
         let mean = self.pixels().map(|(x, y)| self.mean_luminance(x, y)).sum::<f64>() / self.count();
@@ -280,7 +282,7 @@ impl Film {
                 Some(factor) => {
                     // From the mean of all to that of those which came after.
                     let times = f64::from(n) / f64::from(n - samples);
-                    let difference = (tile.luminance(pixel, light) - f64::from(tile.octave[pixel])) * times;
+                    let difference = (tile.luminance(pixel, light, self.paper) - f64::from(tile.octave[pixel])) * times;
                     borne.add(factor * difference * difference);
                 }
                 None => by_octave += of_octave * f64::from(samples) / f64::from(n.max(1)),
@@ -292,17 +294,23 @@ impl Film {
 }
 
 impl Tile {
-    /// Mean luminance of a pixel's samples in the sums' own unit, without the background where that is kept by itself.
-    fn of_samples(&self, pixel: usize) -> f64 {
+    /// Mean luminance of a pixel's samples in the sums' own unit; where the background is kept by itself, without it,
+    /// over what the picture is laid over.
+    fn of_samples(&self, pixel: usize, paper: f64) -> f64 {
         let samples = self.samples[pixel];
         let behind = self.missed.as_ref().map_or(0.0, |missed| luminance(missed.mean(pixel, samples)));
-        luminance(self.sums.mean(pixel, samples)) - behind
+        let light = luminance(self.sums.mean(pixel, samples)) - behind;
+        if paper == 0.0 || samples == 0 {
+            return light;
+        }
+        let hits = self.layers.as_ref().map_or(0, |layers| layers.hits_of(pixel));
+        light + paper * (1.0 - f64::from(hits) / f64::from(samples))
     }
 
     /// The same, with what the light paths of so many sample indices brought.
-    fn luminance(&self, pixel: usize, light: f64) -> f64 {
+    fn luminance(&self, pixel: usize, light: f64, paper: f64) -> f64 {
         let of_light = self.splats.as_ref().map_or(0.0, |splats| luminance(splats.sums.mean(pixel, light)));
-        self.of_samples(pixel) + of_light
+        self.of_samples(pixel, paper) + of_light
     }
 }
 

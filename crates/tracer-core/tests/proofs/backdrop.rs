@@ -28,34 +28,39 @@ fn balls() -> SceneDesc {
 }
 
 /// What is left out has no noise: that of a picture for compositing is of what is before the background, however bright
-/// that is. Seen without bounces the two pictures are the same before it.
+/// that is, and of a picture on paper what it is under a background of the paper's colour. Seen without bounces the
+/// pictures are the same before it.
 #[test]
 fn noise_is_of_what_is_before_the_background() {
-    let of = |background: f64, groups: bool| {
+    const PAPER: f64 = 0.75;
+    let of = |background: f64, output: Output| {
         let lamps = vec![light([0.3, 0.1, 0.0], 0.8, [2.0, 1.0, 0.5]), light([-0.9, 0.4, 0.0], 0.3, [0.2; 3])];
         let mut desc = scene(24, lamps, Vec::new())
             .background([background; 3])
             .camera([0.0, 0.0, 6.0], [0.0; 3], 40.0)
             .filter(PixelFilter::BlackmanHarris { radius: 1.5.into() });
-        desc.output = Output { alpha: true, light_groups: groups, ..Output::default() };
+        // A stop up: the paper is as bright as it is on the screen all the same.
+        desc.effects.exposure = 1.0.into();
+        desc.output = output;
         film(&compiled(&desc), 32, 3)
     };
-    let black = of(0.0, false);
-    assert!(black.relative_noise() > 1e-3);
-    for film in [of(4.0, false), of(4.0, true)] {
-        let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs() + 1e-12;
-        assert!(
-            same(film.relative_noise(), black.relative_noise()),
-            "{} {}",
-            film.relative_noise(),
-            black.relative_noise()
-        );
-        for (x, y) in pixels(&film) {
-            assert!(same(film.variance(x, y), black.variance(x, y)), "({x}, {y})");
-            // Squares of what is left out would be 16 times 32.
-            assert!(film.variance(x, y) < 0.1);
+    let clear = |light_groups: bool| Output { alpha: true, light_groups, ..Output::default() };
+    let paper = || Output { backdrop: Some([PAPER; 3].into()), ..Output::default() };
+    let black = of(0.0, clear(false));
+    let plain = of(PAPER / 2.0, Output::default());
+    let assert_same = |film: &Film, expected: &Film| {
+        let same = |a: f64, b: f64| (a - b).abs() <= 1e-6 * b.abs() + 1e-12;
+        let [noise, other] = [film, expected].map(Film::relative_noise);
+        assert!(same(noise, other) && noise > 1e-3, "{noise}, not {other}");
+        for (x, y) in pixels(film) {
+            let [variance, other] = [film, expected].map(|film| film.variance(x, y));
+            assert!(same(variance, other), "({x}, {y}): {variance}, not {other}");
         }
-    }
+    };
+    assert_same(&of(4.0, clear(false)), &black);
+    assert_same(&of(4.0, clear(true)), &black);
+    assert_same(&of(4.0, paper()), &plain);
+    assert_same(&of(0.0, paper()), &plain);
 }
 
 fn pixels(film: &Film) -> impl Iterator<Item = (u32, u32)> + use<> {
