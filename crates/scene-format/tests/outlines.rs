@@ -106,7 +106,7 @@ fn faults_of_all_shapes_come_in_one_run() {
     ];
     let objects: Vec<&str> = cases.iter().map(|(object, ..)| *object).collect();
     let text = format!(
-        "Scene(background: 1, colour: 1, materials: {{ \"lamp\": Emissive(power: 3) }}, objects: [Sphere(), {}])",
+        "Scene(background: 1, colour: 1, materials: {{ \"lamp\": Emissive(power: 3) }}, objects: [Torus(), {}])",
         objects.join(",\n")
     );
     let errors = errors(&text, Syntax::Ron);
