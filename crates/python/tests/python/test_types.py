@@ -47,4 +47,5 @@ def test_what_is_right_passes_and_what_is_wrong_does_not(tmp_path):
 
 def test_types_are_there_when_a_program_runs():
     assert {"Sphere", "Mesh", "Scale"} <= set(vars(tracer.words))
-    assert set(tracer.words.Sphere.__required_keys__) == {"center", "radius"}
+    assert set(tracer.words.Sphere.__required_keys__) == {"radius"}
+    assert set(tracer.words.Torus.__required_keys__) == {"radius", "tube_radius"}
