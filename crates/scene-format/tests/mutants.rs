@@ -140,7 +140,7 @@ fn soonest(mut run: impl FnMut()) -> Duration {
 
 #[test]
 fn mutants_neither_panic_nor_hang() {
-    let count = std::env::var("SCENE_MUTANTS").ok().and_then(|count| count.parse().ok()).unwrap_or(4000);
+    let count = std::env::var("SCENE_MUTANTS").ok().and_then(|count| count.parse().ok()).unwrap_or(2000);
     let mut random = Random(5);
     let (mut right, mut slowest) = (0, (Duration::ZERO, 0));
     // In pieces: a hundred thousand of them are some hundred megabytes.

@@ -138,13 +138,13 @@ fn soup() {
 fn beams() {
     let mut random = Random::new(14);
     let mesh = Mesh::soup(600, 0.2, &mut random);
-    let hits = check(&mesh, &Batch::beams(60, 1.2, &mut random));
-    assert!(hits.iter().filter(|hit| hit.primitive != NONE).count() > 200);
+    let hits = check(&mesh, &Batch::beams(40, 1.2, &mut random));
+    assert!(hits.iter().filter(|hit| hit.primitive != NONE).count() > 130);
     // Triangles smaller and larger than a beam, far from the origin too.
     let ball = Mesh::ball(60, 30);
-    check(&ball, &Batch::beams(60, 2.0, &mut random));
-    check(&ball.clone().scaled(1e4), &Batch::beams(40, 2e4, &mut random));
-    check(&ball.scaled(1e-4), &Batch::beams(40, 2e-4, &mut random));
+    check(&ball, &Batch::beams(20, 2.0, &mut random));
+    check(&ball.clone().scaled(1e4), &Batch::beams(20, 2e4, &mut random));
+    check(&ball.scaled(1e-4), &Batch::beams(20, 2e-4, &mut random));
 }
 
 #[test]
@@ -415,7 +415,7 @@ fn a_cut_takes_no_hit_away_and_adds_none() {
         let mesh = Mesh::aslant(60, width, &mut random);
         let meshes = [mesh.geometry(0)];
         let all = parts(&Geometry { meshes: &meshes, instances: &[HERE], ..Geometry::default() });
-        let batch = at_triangles(&mesh, 1500, &mut random);
+        let batch = at_triangles(&mesh, 600, &mut random);
         let mut hits = 0;
         for ray in 0..batch.len() {
             let (origin, direction) = batch.ray(ray);
@@ -432,7 +432,7 @@ fn a_cut_takes_no_hit_away_and_adds_none() {
                 }
             }
         }
-        assert!(hits > 2000, "{hits} hits");
+        assert!(hits > 800, "{hits} hits");
     }
 }
 

@@ -36,6 +36,7 @@ fn balls() {
 
 /// Members with both lobes, and glossy things that aimed rays meet, within spheres that are aimed at and beyond them.
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn glossy_balls() {
     let grey = |x: f64| Albedo::Color([x; 3].into());
     let objects = vec![

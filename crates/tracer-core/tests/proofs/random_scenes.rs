@@ -148,6 +148,7 @@ fn random_scenes_0_to_11() {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn random_scenes_12_to_23() {
     compare(12);
 }

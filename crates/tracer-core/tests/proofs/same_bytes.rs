@@ -323,6 +323,16 @@ fn meshes_written_out() {
 
 #[test]
 fn threads_and_lanes() {
+    threads_and_lanes_of(|level| if level == Level::best() { &[1, 2, 3, 7] } else { &[2] });
+}
+
+#[test]
+#[ignore = "long: cargo xtask prove proofs"]
+fn all_threads_with_all_lanes() {
+    threads_and_lanes_of(|_| &[1, 2, 3, 7]);
+}
+
+fn threads_and_lanes_of(threads_at: fn(Level) -> &'static [usize]) {
     for (name, desc) in scenes() {
         let scene = compiled(&desc);
         let expected = rendered(&scene, &options());
@@ -330,7 +340,7 @@ fn threads_and_lanes() {
         for level in Level::available() {
             // Without hardware fma a sample costs a hundred times more.
             let crop = (level == Level::PORTABLE).then_some(Crop { x: 8, y: 8, width: 16, height: 8 });
-            for threads in if crop.is_some() { vec![2] } else { vec![1, 2, 3, 7] } {
+            for &threads in if crop.is_some() { &[2] } else { threads_at(level) } {
                 let options = RenderOptions { threads, level: Some(level), crop, ..options() };
                 let film = tracer_core::render(&scene, &options, &Unobserved);
                 let part = crop.unwrap_or(Crop::whole(scene.size));
@@ -359,9 +369,7 @@ fn crops() {
             Crop { x: 3, y: 5, width: 21, height: 11 },
             Crop { x: 28, y: 28, width: 1, height: 1 },
         ] {
-            for (threads, level) in
-                [(1, Level::best()), (3, Level::best()), (2, Level::from_lanes(1).expect("one lane"))]
-            {
+            for (threads, level) in [(3, Level::best()), (2, Level::from_lanes(1).expect("one lane"))] {
                 let options = RenderOptions { crop: Some(crop), threads, level: Some(level), ..options() };
                 assert!(rendered(&scene, &options) == cut(&expected, scene.size, crop), "{name}: {crop:?}");
             }
@@ -371,12 +379,23 @@ fn crops() {
 
 #[test]
 fn accelerations() {
+    accelerations_at(&[Level::best()]);
+}
+
+#[test]
+#[ignore = "long: cargo xtask prove proofs"]
+fn accelerations_with_all_lanes() {
+    let fast = Level::available().into_iter().filter(|&level| level != Level::PORTABLE);
+    accelerations_at(&fast.collect::<Vec<_>>());
+}
+
+fn accelerations_at(levels: &[Level]) {
     for (name, mut desc) in scenes() {
         let expected = rendered(&compiled(&desc), &options());
         for acceleration in [Acceleration::BoundingBox, Acceleration::None] {
             desc.render.acceleration = acceleration;
             let scene = compiled(&desc);
-            for level in Level::available().into_iter().filter(|&level| level != Level::PORTABLE) {
+            for &level in levels {
                 let options = RenderOptions { level: Some(level), threads: 2, ..options() };
                 assert!(rendered(&scene, &options) == expected, "{name}: {acceleration:?}, {}", level.name());
             }

@@ -57,9 +57,19 @@ fn over_a_lamp() -> impl Iterator<Item = SceneDesc> {
     })
 }
 
-/// A lamp under an opaque floor shines through nothing that stands on it.
+/// A lamp under an opaque floor shines through nothing that stands on it. Seven is prime: each body, material and floor
+/// is among the scenes of which one in seven is taken.
 #[test]
 fn nothing_gets_between_a_solid_and_what_it_stands_on() {
+    for desc in over_a_lamp().step_by(7) {
+        assert_eq!(range(&desc)[0], 0.0, "{:?}", desc.objects);
+    }
+}
+
+/// All of them.
+#[test]
+#[ignore = "long: cargo xtask prove proofs"]
+fn nothing_gets_between_any_solid_and_any_floor() {
     for desc in over_a_lamp() {
         assert_eq!(range(&desc)[0], 0.0, "{:?}", desc.objects);
     }

@@ -43,9 +43,16 @@ pub const PROOFS: &[Proof] = &[
     proof(
         "proofs",
         Always,
-        "the tests that take more than some seconds each; twelve minutes",
+        "the tests that take more than some seconds each; thirteen minutes",
         &[],
-        &["cargo test --locked --workspace --tests -- --ignored"],
+        &["cargo test --locked --workspace --lib --tests -- --ignored"],
+    ),
+    proof(
+        "units",
+        Always,
+        "the unit tests of the crates that take long to compile once more; two minutes, once `proofs` has run",
+        &[],
+        &["cargo test --locked --workspace --lib"],
     ),
     proof(
         "preview",
