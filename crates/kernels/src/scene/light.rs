@@ -17,6 +17,9 @@ pub enum Light {
         radiance: [f64; 3],
         /// It shines inwards, too.
         two_sided: bool,
+        /// It is a sky: the camera, and so all that it can see, is within. What it shines is met by rays that go on, as
+        /// a background is, and never asked for: it comes from all sides alike, which those rays know best.
+        is_sky: bool,
     },
     /// A curved shape of `Scene::shapes`.
     Curved(CurvedLight),
@@ -113,6 +116,11 @@ impl Light {
         }
     }
 
+    /// Whether it is a sky, which is never asked for.
+    pub fn is_sky(&self) -> bool {
+        matches!(self, Light::Sphere { is_sky: true, .. })
+    }
+
     /// A flat light.
     pub fn flat(&self) -> Option<&FlatLight> {
         match self {
@@ -196,12 +204,15 @@ pub struct CurvedRow {
 pub struct LightTable {
     /// Number of lights.
     pub len: u32,
-    /// Number of those that shine: the others are met as all are, but never asked, and not in the tree.
+    /// Number of those that shine and are no skies: the others are met as all are, but never asked, and not in the
+    /// tree.
     pub asked: u32,
+    /// There is a sky that shines.
+    pub has_sky: bool,
     /// Number of spheres among them.
     pub spheres: u32,
     /// Of the spheres: centre and radius, radiance, the bits of the primitive id of the light's sphere, and 1 where it
-    /// shines inwards, else 0.
+    /// shines inwards, [`LightTable::SKY`] where it is a sky, else 0.
     pub rows: Table<9>,
     /// The curved ones.
     pub curved: Arc<[CurvedRow]>,
@@ -266,6 +277,8 @@ impl LightTable {
     pub const PLANE: u32 = 4;
     /// Bit of a curved light that is no sphere.
     pub const CURVED: u32 = 8;
+    /// What the row of a sky ends in.
+    pub const SKY: f32 = 2.0;
     /// Numbers of a node.
     pub const STRIDE: u32 = 12;
     /// Where a node holds what it is: see [`LightTable::tree`].
@@ -293,10 +306,10 @@ impl LightTable {
         let emitter = |(k, light): (usize, &Light)| Emitter::new(light, spheres, share(k));
         let emitters: Vec<Emitter> = lights.iter().enumerate().map(emitter).collect();
         let rows = lights.iter().filter_map(|light| {
-            let Light::Sphere { sphere, radiance, two_sided } = *light else { return None };
+            let Light::Sphere { sphere, radiance, two_sided, is_sky } = *light else { return None };
             let s = spheres.get(sphere as usize)?;
             let ([x, y, z], [r, g, b]) = (s.center.as_vec3().to_array(), radiance.map(|x| x as f32));
-            let inside = f32::from(u8::from(two_sided));
+            let inside = if is_sky { Self::SKY } else { f32::from(u8::from(two_sided)) };
             Some([x, y, z, s.radius as f32, r, g, b, f32::from_bits(sphere), inside])
         });
         let flat = lights.iter().filter_map(|light| {
@@ -316,8 +329,9 @@ impl LightTable {
             v
         };
         let mut builder = Builder { emitters: &emitters, tree: Vec::new(), trail: vec![0; emitters.len()], depth: 0 };
-        let mut order: Vec<u32> =
-            (0..).zip(lights).filter(|(_, light)| light.radiance() != [0.0; 3]).map(|(k, _)| k).collect();
+        let shines = |light: &Light| light.radiance() != [0.0; 3];
+        let is_asked = |light: &Light| shines(light) && !light.is_sky();
+        let mut order: Vec<u32> = (0..).zip(lights).filter(|(_, light)| is_asked(light)).map(|(k, _)| k).collect();
         let asked = order.len() as u32;
         builder.tree.resize(Self::STRIDE as usize, 0.0);
         if asked > 0 {
@@ -327,6 +341,7 @@ impl LightTable {
         LightTable {
             len: emitters.len() as u32,
             asked,
+            has_sky: lights.iter().any(|light| light.is_sky() && shines(light)),
             spheres: sphere_count as u32,
             rows: Table::new(rows),
             first_flat: (sphere_count + curved.len()) as u32,
@@ -439,8 +454,9 @@ impl Facing {
     }
 }
 
-/// Builds the tree: halves by number along the widest axis of the centres, so that no way is longer than log2 of their
-/// number.
+/// Builds the tree: halves by number along the widest axis of the centres, so that no way is much longer than log2 of
+/// their number. A light that all others stand in, a sky, is split off before them: it would make any group that it is
+/// of as wide and as strong as itself.
 struct Builder<'a> {
     emitters: &'a [Emitter],
     tree: Vec<f32>,
@@ -448,7 +464,19 @@ struct Builder<'a> {
     depth: u32,
 }
 
+/// So many lights around all others, one around the other, are split off at most.
+const MOST_AROUND: u32 = 8;
+
 impl Builder<'_> {
+    /// Which of these lights all others stand in, if one does.
+    fn around_all(&self, lights: &[u32]) -> Option<usize> {
+        let of = |k: usize| &self.emitters[lights[k] as usize];
+        let (widest, _) = (0..lights.len()).map(|k| (k, of(k).radius)).max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (center, radius) = (of(widest).center, of(widest).radius);
+        let is_within = |k: usize| of(k).center.distance(center) + of(k).radius <= radius;
+        (0..lights.len()).all(|k| k == widest || is_within(k)).then_some(widest)
+    }
+
     /// Fills node `at` with these lights, which lie `depth` steps below the root along `trail`.
     fn node(&mut self, at: usize, lights: &mut [u32], trail: u32, depth: u32) {
         let emitters = self.emitters;
@@ -469,9 +497,14 @@ impl Builder<'_> {
             let axis = (0..3).fold(0, |widest, axis| if size[axis] > size[widest] { axis } else { widest });
             // The index decides between equal places, so that the tree depends on nothing else.
             lights.sort_unstable_by(|&a, &b| of(a).center[axis].total_cmp(&of(b).center[axis]).then(a.cmp(&b)));
+            let mut middle = lights.len() / 2;
+            if let Some(around) = self.around_all(lights).filter(|_| lights.len() > 2 && depth < MOST_AROUND) {
+                lights[..=around].rotate_right(1);
+                middle = 1;
+            }
             let first = self.tree.len();
             self.tree.resize(first + 2 * LightTable::STRIDE as usize, 0.0);
-            let (left, right) = lights.split_at_mut(lights.len() / 2);
+            let (left, right) = lights.split_at_mut(middle);
             self.node(first, left, trail, depth + 1);
             self.node(first + LightTable::STRIDE as usize, right, trail | 1 << depth, depth + 1);
             first as u32 / LightTable::STRIDE

@@ -173,6 +173,12 @@ impl Scene {
         self.background.iter().any(|&x| x > 0.0) || self.environment().is_some()
     }
 
+    /// Whether light comes that is never asked for, so that rays go on from the last vertices, too: that of a background
+    /// or of a sky.
+    pub fn is_under_sky(&self) -> bool {
+        self.is_open() || self.tables.lights.has_sky
+    }
+
     /// The same scene in which only some of the lights shine: those of which `shines` is true, by their index, and the
     /// background where `background` is. The others are there, and dark. All but the lights is shared with this one.
     pub fn lit_by(&self, shines: impl Fn(usize) -> bool, background: bool) -> Scene {
@@ -186,7 +192,7 @@ impl Scene {
         if !background {
             lit.background = [0.0; 3];
         }
-        if lit.reuse == Sharing::Indoors && !lit.is_open() {
+        if lit.reuse == Sharing::Indoors && !lit.is_under_sky() {
             lit.reuse = Sharing::Always;
         }
         lit

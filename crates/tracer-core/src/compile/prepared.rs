@@ -122,7 +122,7 @@ impl Prepared {
             seed: desc.render.seed.value,
             integrator: integrator(&desc.render.integrator, &frame),
             reuse: match desc.render.reuse {
-                Reuse::Blocks if full && self.is_dark => Sharing::Always,
+                Reuse::Blocks if full && self.is_dark && !self.light_table.has_sky => Sharing::Always,
                 Reuse::Blocks if full => Sharing::Indoors,
                 _ => Sharing::Never,
             },

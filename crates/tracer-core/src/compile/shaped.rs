@@ -7,7 +7,9 @@ use super::{Objects, csg, lights_in_one_place, meshes, radiances, unmeant, verte
 use glam::{DAffine3, DVec3};
 use scene_format::{Diagnostics, SceneDesc, desc};
 use std::collections::BTreeMap;
-use tracer_kernels::scene::{ColorTable, CurvedLight, Light, NONE, Program, Shape, Solids, Space, Sphere, SphereTable};
+use tracer_kernels::scene::{
+    Camera, ColorTable, CurvedLight, Light, NONE, Program, Projection, Shape, Solids, Space, Sphere, SphereTable,
+};
 
 /// All shapes and lights.
 pub(super) struct Shaped {
@@ -70,13 +72,14 @@ impl Shaped {
 /// shapes, and the lights.
 fn curved_and_lights(
     desc: &SceneDesc,
-    Measured { frame, radiance_unit, .. }: &Measured,
+    Measured { frame, camera, radiance_unit }: &Measured,
     curved: Vec<Curved>,
     mut written: Option<&mut Vec<DAffine3>>,
 ) -> (Vec<Sphere>, Vec<Shape>, Vec<Light>) {
     let mut lights: Vec<Light> = Vec::new();
     let mut shine = |radiance: [f64; 3], two_sided: bool| {
-        lights.push(Light::Sphere { sphere: NONE, radiance: radiance.map(|x| x / radiance_unit), two_sided });
+        let radiance = radiance.map(|x| x / radiance_unit);
+        lights.push(Light::Sphere { sphere: NONE, radiance, two_sided, is_sky: false });
         lights.len() as u32 - 1
     };
     let mut spheres = Vec::with_capacity(curved.len() + desc.lights.len());
@@ -96,8 +99,9 @@ fn curved_and_lights(
     // Behind those that hang in the tree.
     shapes.sort_by_key(|shape| shape.unit.is_endless());
     for (k, sphere) in spheres.iter().enumerate() {
-        if let Some(Light::Sphere { sphere: index, .. }) = lights.get_mut(sphere.light as usize) {
+        if let Some(Light::Sphere { sphere: index, two_sided, is_sky, .. }) = lights.get_mut(sphere.light as usize) {
             *index = k as u32;
+            *is_sky = *two_sided && is_seen(desc, sphere.object) && holds(sphere, camera);
         }
     }
     // Behind those of the spheres.
@@ -111,6 +115,28 @@ fn curved_and_lights(
     let in_unit = |lamp: CurvedLight| CurvedLight { radiance: lamp.radiance.map(|x| x / radiance_unit), ..lamp };
     lights.extend(lamps.into_iter().map(|lamp| Light::Curved(in_unit(lamp))));
     (spheres, shapes, lights)
+}
+
+/// Whether the camera sees an object, or a lamp that is none.
+fn is_seen(desc: &SceneDesc, object: u32) -> bool {
+    match desc.objects.get(object as usize) {
+        Some(object) => object.value.camera_visible(),
+        None => {
+            let lamp = desc.lights.get((object as usize).wrapping_sub(desc.objects.len()));
+            lamp.is_none_or(|lamp| lamp.value.camera_visible())
+        }
+    }
+}
+
+/// Whether all rays of the camera start in a sphere, by a hundredth of its radius.
+fn holds(sphere: &Sphere, camera: &Camera) -> bool {
+    let reach = match camera.projection {
+        Projection::Perspective { lens, .. } => lens.map_or(0.0, |lens| lens.radius),
+        Projection::Orthographic => camera.right.length() + camera.up.length(),
+        Projection::Panorama | Projection::Fisheye { .. } => 0.0,
+    };
+    let aside = camera.stereo.map_or(0.0, |stereo| stereo.aside.abs());
+    camera.near == 0.0 && camera.eye.distance(sphere.center) + reach + aside < 0.99 * sphere.radius
 }
 
 /// Adds objects that are made of several to the shapes, and their parts that shine to the lights; gives what they are

@@ -3,8 +3,10 @@
 use crate::support::compare::assert_guiding_is_unbiased;
 use crate::support::describe::*;
 use crate::support::meshes::{icosphere, torus};
-use scene_format::SceneDesc;
+use crate::support::{compiled, film};
 use scene_format::desc::{Albedo, Object, Shading, SphereLight, Transform};
+use scene_format::{SceneDesc, Syntax, load_str};
+use std::path::Path;
 
 /// All that are compared here, for the strictness of the tests.
 const SCENES: usize = 3;
@@ -64,4 +66,32 @@ fn meshes() {
         mesh(&icosphere(1).obj("icosphere-1"), glass(1.5), Shading::Flat, body(-1.0)),
     ];
     assert_guiding_is_unbiased("meshes", &on_the_floor(objects), 256, SCENES);
+}
+
+/// The floor under a slab of water is found as well in the light of a lamp that is ten times as far away and as wide: as
+/// much light comes from there. It was not, while the chance of aimed rays went by the flux of lamps, of which little
+/// comes from afar: the deviation of its pixels was twice that.
+#[test]
+fn far_lamps_are_found_as_well_as_near_ones() {
+    let deviation = |scale: f64| {
+        let text = format!(
+            "Scene(image: Image(width: 32, height: 32), render: Render(max_bounces: 8), \
+             camera: Camera(position: (0, 4, 6), look_at: (0, -0.6, 0), fov: 16), \
+             lights: [SphereLight(center: ({}, {}, {}), radius: {}, radiance: 45000)], \
+             objects: [Plane(point: (0, -1, 0), material: Diffuse(albedo: 0.6)), \
+                 Box(center: (0, -0.5, 0), size: (5, 0.8, 5), material: Transparent(ior: 1.33))])",
+            6.0 * scale,
+            8.0 * scale,
+            4.0 * scale,
+            0.05 * scale
+        );
+        let scene = load_str("s.ron", &text, Syntax::Ron, Path::new(""), &[]).expect("a scene").scene;
+        let film = film(&compiled(&scene), 64, 3);
+        // Half of the pixels have less: a bright one by chance says nothing.
+        let mut variances: Vec<f64> = (0..32 * 32).map(|k| film.variance(k % 32, k / 32)).collect();
+        variances.sort_by(f64::total_cmp);
+        variances[512].sqrt()
+    };
+    let [near, far] = [1.0, 10.0].map(deviation);
+    assert!(far < 1.3 * near, "{near} and {far}");
 }

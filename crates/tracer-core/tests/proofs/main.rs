@@ -48,6 +48,7 @@ mod shared_roulette;
 mod shining;
 mod shining_curved;
 mod shining_solids;
+mod sky;
 mod solids;
 mod support;
 mod surfaces;

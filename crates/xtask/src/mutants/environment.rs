@@ -1,4 +1,4 @@
-//! Faults in pictures of all directions.
+//! Faults in pictures of all directions, and in spheres that shine around all there is.
 
 use super::{Mutant, kernel_units, proofs};
 
@@ -49,5 +49,26 @@ pub const MUTANTS: &[Mutant] = &[
         find: "light = ray.throughput.mul(radiance).scale(shown * weight);",
         replace: "light = ray.throughput.mul(radiance).scale(shown * (weight * F::splat(0.5) + F::splat(0.5)));",
         caught_by: proofs(&["environment::a_picture_of_one_colour_is_a_background_of_that_colour"]),
+    },
+    Mutant {
+        name: "sky-weighed-as-if-it-were-asked",
+        file: "crates/kernels/src/engine/stages/lights/mod.rs",
+        find: "near = F::select(is_sky, F::splat(0.0), near);",
+        replace: "",
+        caught_by: proofs(&["sky::a_sky_of_one_colour_is_a_background"]),
+    },
+    Mutant {
+        name: "sky-not-met-behind-the-last-vertex",
+        file: "crates/kernels/src/engine/stages/shade.rs",
+        find: "open: scene.is_under_sky(),",
+        replace: "open: scene.is_open(),",
+        caught_by: proofs(&["sky::a_sky_of_one_colour_is_a_background"]),
+    },
+    Mutant {
+        name: "lamps-within-a-lamp-are-starved",
+        file: SELECTION,
+        find: "to.dot(to).max(F::select(is_sphere, r2, zero))",
+        replace: "to.dot(to)",
+        caught_by: kernel_units(&["engine::stages::lights"]),
     },
 ];

@@ -95,8 +95,9 @@ pub struct Plan {
     pub casters: Casters,
     /// The curved lights.
     pub curved: Arc<[CurvedRow]>,
-    /// Flux of all lights, the sum of the channels.
-    pub power: f32,
+    /// What all lights send towards the middle of the scene: flux, the sum of the channels, and of lights farther than a
+    /// unit over their squared distance.
+    pub sent: f32,
     /// How many photons all casters are worth, of those of mirrors in their place.
     worth: f64,
 }
@@ -110,7 +111,7 @@ impl Plan {
         let casters = Casters::new(scene, MOST_PAIRS / scene.lights.len());
         let mut pairs = Vec::new();
         let (mut all, mut of_mirrors) = (0.0, 0.0);
-        for (k, light) in scene.lights.iter().enumerate().filter(|(_, light)| light.is_drawn()) {
+        for (k, light) in scene.lights.iter().enumerate().filter(|(_, light)| light.is_drawn() && !light.is_sky()) {
             let pi = std::f64::consts::PI;
             let radiance = light.radiance().iter().sum::<f64>() * scene.tables.lights.share(k);
             // Area over 4 pi.
@@ -124,7 +125,9 @@ impl Plan {
                     radiance * faces * light.area(&scene.spheres) / (4.0 * pi)
                 }
             };
-            all += power * 4.0 * pi * pi;
+            // As much is sent to the middle of the scene from one unit away; what is nearer counts as that.
+            let (center, _) = light.bounds(&scene.spheres);
+            all += power * 4.0 * pi * pi / center.length_squared().max(1.0);
             for (c, caster) in casters.list.iter().enumerate() {
                 let mut pair = Pair::new(scene, light, caster);
                 pair.weight *= power;
@@ -149,7 +152,7 @@ impl Plan {
             ends: pairs.iter().map(|p| [p.light, p.caster]).collect(),
             casters,
             curved: scene.tables.lights.curved.clone(),
-            power: all as f32,
+            sent: all as f32,
             worth: sum / of_mirrors,
         })
     }

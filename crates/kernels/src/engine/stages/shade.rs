@@ -132,7 +132,7 @@ impl<'a, F: Lanes> Stage<'a, F> {
             scene,
             pass,
             vertex,
-            open: scene.is_open(),
+            open: scene.is_under_sky(),
             several: scene.tables.lights.several(),
             choices: PairPoints::<F>::new(seed, Purpose::Choice(vertex), items),
             light_points: PairPoints::<F>::new(seed, Purpose::Light(vertex), items),

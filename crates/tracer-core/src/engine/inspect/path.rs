@@ -238,7 +238,7 @@ impl Follower<'_> {
     fn goes_on(&self, vertex: &Vertex<'_>, depth: u32) -> bool {
         let scene = self.engine.scene;
         let is_last = depth == scene.max_bounces || self.pass.task == Task::Direct;
-        scene.is_open() || !is_last || !vertex.is_diffuse()
+        scene.is_under_sky() || !is_last || !vertex.is_diffuse()
     }
 
     fn met(&self, row: &Row, vertex: Option<&Vertex<'_>>, brings: [f32; 3], depth: u32) -> Option<MetTold> {

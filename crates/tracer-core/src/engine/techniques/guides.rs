@@ -120,7 +120,7 @@ impl Technique for Guides {
         self.guide.cells = pool.once(|batch| {
             batch.watch.resume();
             let start = Instant::now();
-            let cells = Cells::new(seed, &photons, self.plan.power / std::f32::consts::PI * count as f32);
+            let cells = Cells::new(seed, &photons, self.plan.sent / std::f32::consts::PI * count as f32);
             batch.watch.lap(Stage::Photons);
             batch.watch.costs.photons_since(start);
             cells

@@ -161,7 +161,7 @@ fn curved_lanes<U: Bits>(lights: &LightTable, k: U) -> U::M {
     k.lt(U::splat(lights.first_flat)) & !k.lt(U::splat(lights.spheres))
 }
 
-/// Density with which [`choose`] and [`sample`] take a direction that has met light `k`.
+/// Density with which [`choose`] and [`sample`] take a direction that has met light `k`: zero for a sky.
 #[inline(always)]
 pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>, hit: &LightHit<F>) -> F {
     let mut inverse = sphere::inverse_pdf(lights, k, at.p);
@@ -175,7 +175,12 @@ pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>, hit: &LightH
         let is_flat = !k.lt(F::U::splat(lights.first_flat));
         inverse = F::select(is_flat, flat::inverse_pdf(lights, flat_row(lights, k), hit), inverse);
     }
-    let near = selection::probability(lights, k, at) / inverse;
+    let mut near = selection::probability(lights, k, at) / inverse;
+    if lights.has_sky {
+        let [.., inwards] = lights.rows.row::<F>(k);
+        let is_sky = k.lt(F::U::splat(lights.spheres)) & F::splat(LightTable::SKY).le(inwards);
+        near = F::select(is_sky, F::splat(0.0), near);
+    }
     if lights.environment.is_some() { near * F::splat(1.0 - selection::ENVIRONMENT) } else { near }
 }
 

@@ -115,10 +115,11 @@ impl<F: Lanes> Step<F> {
     #[inline(always)]
     fn between(lights: &LightTable, inner: F::M, [a, b]: [Node<F>; 2], at: Receiver<F>) -> Self {
         let contents = [a.content, b.content];
+        let spheres = F::U::splat(lights.spheres);
         let (a, b) = if lights.has_others() {
-            (a.importance(at) * a.facing(at), b.importance(at) * b.facing(at))
+            (a.importance(spheres, at) * a.facing(at), b.importance(spheres, at) * b.facing(at))
         } else {
-            (a.importance(at), b.importance(at))
+            (a.importance(spheres, at), b.importance(spheres, at))
         };
         let (sum, zero) = (a + b, F::splat(0.0));
         let any = zero.lt(sum);
@@ -202,12 +203,15 @@ impl<F: Lanes> Node<F> {
 
     /// What the lights below may send to the receiver, but for a factor: power over squared distance, times a cosine
     /// there: of few lights a bound, of many one rather of their middle, never zero while some of the sphere is above
-    /// the horizon.
+    /// the horizon. Within a sphere that shines inwards, a sky, as much comes as at its surface, from wherever it is
+    /// seen: as if the receiver were as far from its middle.
     #[inline(always)]
-    fn importance(&self, receiver: Receiver<F>) -> F {
+    fn importance(&self, spheres: F::U, receiver: Receiver<F>) -> F {
         let (r, zero) = (self.radius, F::splat(0.0));
         let to = self.center.sub(receiver.p);
-        let inverse = F::splat(1.0) / (to.dot(to) + r * r * F::splat(SPREAD));
+        let (r2, is_sphere) = (r * r, (self.content - F::U::splat(LightTable::LEAF)).lt(spheres));
+        let distance2 = to.dot(to).max(F::select(is_sphere, r2, zero));
+        let inverse = F::splat(1.0) / (distance2 + r2 * F::splat(SPREAD));
         let middle = to.dot(receiver.n);
         let height = (middle + r * self.few).max((middle + r).max(zero) * F::splat(LEAST_HEIGHT));
         self.power * inverse * (height * inverse.sqrt()).min(F::splat(1.0))

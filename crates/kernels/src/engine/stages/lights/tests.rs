@@ -58,7 +58,12 @@ fn table(lights: &[(DVec3, f64, f64)]) -> LightTable {
     let lights: Vec<Light> = lights
         .iter()
         .enumerate()
-        .map(|(k, &(.., radiance))| Light::Sphere { sphere: k as u32, radiance: [radiance, 0.5, 0.0], two_sided: true })
+        .map(|(k, &(.., radiance))| Light::Sphere {
+            sphere: k as u32,
+            radiance: [radiance, 0.5, 0.0],
+            two_sided: true,
+            is_sky: false,
+        })
         .collect();
     LightTable::new(&lights, &spheres, None)
 }
@@ -74,6 +79,36 @@ fn solid_angle(distance: f64) -> f64 {
     }
     let sin2 = 1.0 / (distance * distance);
     TAU * sin2 / (1.0 + (1.0 - sin2).sqrt())
+}
+
+/// Within a sky each light is asked about as often as it sends: E = pi L from all around, pi L (r/d)^2 cos from a small
+/// one. It does not matter how large the sky is, nor how many lamps are in it.
+#[test]
+fn within_a_sky_lamps_are_asked_as_often_as_they_shine() {
+    let sun = (DVec3::new(60.0, 80.0, 40.0), 0.5, 45_000.0);
+    let lamps: Vec<_> = (0..9).map(|k| (DVec3::new(f64::from(k) - 4.0, 5.0, 3.0), 0.1, 300.0)).collect();
+    for (sky, others) in [(120.0, 0), (300.0, 0), (1e4, 0), (300.0, 9), (1e4, 9)] {
+        let mut lights = vec![(DVec3::ZERO, sky, 1.0), sun];
+        lights.extend(&lamps[..others]);
+        let table = table(&lights);
+        for p in [DVec3::ZERO, DVec3::new(20.0, 0.0, -30.0), DVec3::new(-3.0, 1.0, 2.0)] {
+            // The channels' sum: the second is half of one.
+            let of_lamp = |&(center, radius, radiance): &(DVec3, f64, f64)| {
+                let to = center - p;
+                (radiance + 0.5) * (radius * radius / to.length_squared()) * to.normalize().y.max(0.0)
+            };
+            let sent: Vec<f64> = std::iter::once(1.5).chain(lights[1..].iter().map(of_lamp)).collect();
+            let all: f64 = sent.iter().sum();
+            for (k, sent) in sent.iter().enumerate() {
+                let at = facing_up(V3::splat(p.to_array().map(|x| x as f32)));
+                let light = <S as Lanes>::U::splat(k as u32);
+                let asked = scalar(probability(&table, light, at)) / (sent / all);
+                // Groups of lamps are told by their middle.
+                let (least, most) = if k < 2 { (0.7, 1.4) } else { (0.2, 5.0) };
+                assert!((least..most).contains(&asked), "{sky}, {others} others, light {k} at {p}: {asked}");
+            }
+        }
+    }
 }
 
 /// A density that is the same within the cone integrates to one when it is one over the cone's solid angle.

@@ -57,7 +57,7 @@ fn table() -> LightTable {
     let square =
         FlatLight { corner: DVec3::new(-3.0, 0.0, 0.0), edges, radiance: [5.0; 3], two_sided: true, offset: 0.0 };
     let lights = [
-        Light::Sphere { sphere: 0, radiance: [9.0; 3], two_sided: true },
+        Light::Sphere { sphere: 0, radiance: [9.0; 3], two_sided: true, is_sky: false },
         curved(0, UnitShape::Disk { inner: 0.2 }, false),
         curved(1, UnitShape::Capsule { half: 0.5 }, false),
         curved(2, UnitShape::Cone { radii: [1.0; 2], caps: false, upright: false }, true),
