@@ -1,7 +1,7 @@
 //! A pass of the filter: candidates for both halves, from pixels that are alike.
 
 use crate::plane::{Colours, Padded, Plane};
-use crate::prepared::Prepared;
+use crate::prepared::{DARK, Prepared};
 use crate::solve::{MOMENTS, UNKNOWNS, values};
 use rayon::prelude::*;
 
@@ -54,6 +54,8 @@ struct Field {
     near: Padded,
     slope: [Padded; 2],
     tint: [Padded; 3],
+    /// What irradiance was divided by.
+    albedo: [Padded; 3],
 }
 
 /// Sums of a row of a tile: the upper half of a symmetric matrix, and three right hand sides.
@@ -82,6 +84,7 @@ pub fn filter(
         near: padded(&prepared.near),
         slope: prepared.slope.each_ref().map(padded),
         tint: prepared.tint.each_ref().map(padded),
+        albedo: prepared.albedo.each_ref().map(padded),
     };
     let (width, pixels) = (field.width, field.width * field.height);
     let empty = || [0, 1].map(|_| vec![[0.0; 3]; pixels]);
@@ -197,6 +200,7 @@ impl Work {
             let other = field.near.place(left as isize + across, y + down);
             let rows = |planes: &[Padded; 3]| planes.each_ref().map(|plane| [*plane.row(here), *plane.row(other)]);
             let (normal, tint): ([[Row; 2]; 3], [[Row; 2]; 3]) = (rows(&field.normal), rows(&field.tint));
+            let albedo: [[Row; 2]; 3] = rows(&field.albedo);
             let (near, near_other): (&Row, &Row) = (field.near.row(here), field.near.row(other));
             let [right, below]: [&Row; 2] = field.slope.each_ref().map(|slope| slope.row(here));
             for x in 0..TILE {
@@ -206,7 +210,8 @@ impl Work {
                 let of_tint = (square(&tint[0]) + square(&tint[1]) + square(&tint[2])) * (1.0 / ALBEDO / ALBEDO);
                 let from_flat = near_other[x] - near[x] - (right[x] * fx + below[x] * fy);
                 let unit = NEAR * near[x] + 0.5 * (right[x].abs() + below[x].abs()) + LEAST;
-                weights[x] = weight(of_normal + of_tint + from_flat * from_flat / (unit * unit));
+                let known = known(&albedo, x);
+                weights[x] = weight(of_normal + of_tint + from_flat * from_flat / (unit * unit)) * known * known;
             }
             for (x, weight) in weights.iter_mut().enumerate() {
                 let x = (left + x) as isize + across;
@@ -306,6 +311,15 @@ impl Work {
             }
         }
     }
+}
+
+/// How well a pixel knows the irradiance of another one, at most one: its noise is that of radiance over its albedo,
+/// which of black is anything. By the channel that it knows least of: weights are of pixels. Without it what is black
+/// made mixed pixels at its border darker, which took up to 4 % from a picture of white dots on black.
+#[inline(always)]
+fn known(albedo: &[[Row; 2]; 3], x: usize) -> f32 {
+    let ratio = |[here, other]: &[Row; 2]| other[x] / here[x].max(DARK);
+    ratio(&albedo[0]).min(ratio(&albedo[1])).min(ratio(&albedo[2])).min(1.0)
 }
 
 /// Nearly exp(-d), but with an end.

@@ -4,7 +4,7 @@ use crate::input::Input;
 use crate::plane::{Colours, Plane};
 
 /// Albedos below are taken for this: what is nearly black is not made bright.
-const DARK: f32 = 0.02;
+pub const DARK: f32 = 0.002;
 /// Radiance counts as this at most, in units of its mean: squares stay within single precision.
 const MOST: f32 = 1e12;
 /// The square over which the size of the noise is found.

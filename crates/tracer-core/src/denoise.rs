@@ -99,7 +99,15 @@ pub fn denoise_while(film: &Film, goes_on: &(dyn Fn() -> bool + Sync)) -> Result
     let variance: Vec<f32> = (0..pixels).into_par_iter().map(|k| finite(film.variance(at(k).0, at(k).1))).collect();
     // All of them are there: else the film would lack them.
     let layer = |layer| film.layer(layer).map(|image| image.values).unwrap_or_default();
-    let [albedo, normal, depth] = [Layer::DenoisingAlbedo, Layer::DenoisingNormal, Layer::Depth].map(layer);
+    let [mut albedo, normal, depth] = [Layer::DenoisingAlbedo, Layer::DenoisingNormal, Layer::Depth].map(layer);
+    if film.has_backdrop() {
+        // The layer has white where nothing is hit. What is behind is not part of the picture: without it thin dark
+        // things are divided by what they reflect, and not by what they leave free.
+        albedo.par_chunks_mut(3).enumerate().for_each(|(k, albedo)| {
+            let free = 1.0 - film.alpha(at(k).0, at(k).1) as f32;
+            albedo.iter_mut().for_each(|x| *x = (*x - free).max(0.0));
+        });
+    }
     let input = Input {
         width: width as usize,
         height: height as usize,

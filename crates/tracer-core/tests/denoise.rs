@@ -79,6 +79,39 @@ fn halves(film: &Film) -> Vec<[[u64; 3]; 2]> {
     pixels(film).map(|place| of(place).map(|half| half.map(f64::to_bits))).collect()
 }
 
+/// The mean of a denoised picture over that of the noisy one, of four seeds: how much of its light it keeps.
+fn kept(text: &str) -> f64 {
+    let scene = scene(text, &[]);
+    let (mut before, mut after) = (0.0, 0.0);
+    for seed in 0..4 {
+        let film = film(&scene, &RenderOptions { seed: Some(seed), ..options(16) });
+        let behind = |(x, y)| if film.has_backdrop() { film.background(x, y)[0] } else { 0.0 };
+        before += pixels(&film).map(|(x, y)| film.radiance(x, y)[0] - behind((x, y))).sum::<f64>();
+        let denoised = denoise(&film).expect("there is all it needs");
+        after += denoised.radiance.chunks(3).map(|pixel| f64::from(pixel[0])).sum::<f64>();
+    }
+    after / before
+}
+
+/// White dots on black keep their light: black texels, which know nothing of the light on them, took 4.3 % from the
+/// pixels at their borders, and other seeds make a tenth of a per cent of difference. So do dark rods over nothing,
+/// which got 3.2 % from what they leave free.
+#[test]
+fn patterns_and_thin_things_keep_their_light() {
+    let dots = "Scene(camera: Camera(position: (0, 1.6, 5), look_at: (0, 0.5, 0), fov: 40), \
+        image: Image(width: 96, height: 96), render: Render(max_bounces: 4), \
+        lights: [SphereLight(center: (2, 3, 1.5), radius: 0.3, radiance: 50)], \
+        objects: [Plane(material: Diffuse(albedo: Dots(a: 0, b: 1, mapping: Uv(scale: 10))))])";
+    let rods = "Scene(camera: Camera(position: (0, 0, 5), fov: 40), image: Image(width: 96, height: 96), \
+        output: Output(alpha: true), lights: [SphereLight(center: (2, 3, 4), radius: 0.3, radiance: 50)], \
+        objects: [Repeat(count: 60, index: \"i\", items: [Cylinder(material: Diffuse(albedo: 0.05), radius: 0.008, \
+            from: (\"=2*random(i)-1\", -2, \"=random(i+100)\"), to: (\"=2*random(i+200)-1\", 2, 0))])])";
+    for (name, text, most) in [("dots", dots, 0.005), ("rods", rods, 0.01)] {
+        let kept = kept(text);
+        assert!((kept - 1.0).abs() < most, "{name}: {kept}");
+    }
+}
+
 /// The halves make up the picture, and the picture is the one without them.
 #[test]
 fn halves_make_up_the_picture() {
