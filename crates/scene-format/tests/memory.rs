@@ -80,7 +80,7 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 /// Bytes of each file; `SCENE_MEMORY=64` makes each 64 MB long.
-const SIZE: usize = 4 << 20;
+const SIZE: usize = 2 << 20;
 /// What a file may take beyond ten times its bytes is 64 MB. A file of `SIZE` has no reason to need more than a fifth
 /// of them, for a thousand diagnostics, chunks that are not full and small tables.
 const BEYOND: usize = 12 << 20;

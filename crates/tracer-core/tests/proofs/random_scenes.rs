@@ -154,6 +154,7 @@ fn random_scenes_12_to_23() {
 }
 
 #[test]
+#[ignore = "long: cargo xtask prove proofs"]
 fn random_scenes_24_to_35() {
     compare(24);
 }
