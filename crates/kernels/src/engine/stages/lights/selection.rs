@@ -56,11 +56,6 @@ pub fn choose<F: Lanes>(lights: &LightTable, at: Receiver<F>, u: F, v: F) -> Cho
     Choice { light: content & F::U::splat(!LightTable::LEAF), probability, environment }
 }
 
-/// No child that may send something has a smaller chance: the other one may be hidden, and its share of the light may
-/// be one to the last bit of single precision, by which the dim one would never be asked, or so rarely that 24 bits of
-/// a random number do not tell it. Ten steps to a light that is all there is take a twenty-fifth of its samples.
-const LEAST_CHANCE: f32 = 1.0 / 256.0;
-
 /// From this step on the second random number is used.
 const SECOND_NUMBER: u32 = 11;
 const ALMOST_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
@@ -124,7 +119,7 @@ impl<F: Lanes> Step<F> {
         let (sum, zero) = (a + b, F::splat(0.0));
         let any = zero.lt(sum);
         let first = F::select(any, a / F::select(any, sum, F::splat(1.0)), F::splat(0.5));
-        let bounded = first.max(F::splat(LEAST_CHANCE)).min(F::splat(1.0 - LEAST_CHANCE));
+        let bounded = first.max(F::splat(lights.least_chance)).min(F::splat(1.0 - lights.least_chance));
         Step { inner, contents, first: F::select(zero.lt(a) & zero.lt(b), bounded, first) }
     }
     #[inline(always)]

@@ -103,8 +103,13 @@ fn within_a_sky_lamps_are_asked_as_often_as_they_shine() {
                 let at = facing_up(V3::splat(p.to_array().map(|x| x as f32)));
                 let light = <S as Lanes>::U::splat(k as u32);
                 let asked = scalar(probability(&table, light, at)) / (sent / all);
-                // Groups of lamps are told by their middle.
-                let (least, most) = if k < 2 { (0.7, 1.4) } else { (0.2, 5.0) };
+                // Groups of lamps are told by their middle: the sun and lamps on the ground as twice what they are. None
+                // of these has less than a part of the steps to it, however little it sends.
+                let (least, most) = match (others, k) {
+                    (0, _) => (0.7, 1.4),
+                    (_, 0 | 1) => (0.2, 5.0),
+                    _ => (0.2, f64::INFINITY),
+                };
                 assert!((least..most).contains(&asked), "{sky}, {others} others, light {k} at {p}: {asked}");
             }
         }
@@ -281,9 +286,9 @@ fn near_lights_are_chosen_more_often() {
     // Both on the horizon: their radius above it.
     let sends = |power: f64, d2: f64| power * 0.1 / (d2 + 0.1 * 0.01).powf(1.5);
     let near = |d: f64| sends(1.5, d * d) / (sends(1.5, d * d) + sends(3.0, (10.0 - d) * (10.0 - d)));
-    assert!((chance([2.0, 0.0, 0.0], [0.0, 1.0, 0.0]) - near(2.0)).abs() < 1e-5);
+    assert!((chance([3.0, 0.0, 0.0], [0.0, 1.0, 0.0]) - near(3.0)).abs() < 1e-5);
     // The other one may be all that is not hidden.
-    assert!(near(1.0) > 0.997 && chance([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]) == 1.0 - 1.0 / 256.0);
+    assert!(near(1.0) > 0.997 && chance([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]) == 1.0 - 1.0 / 16.0);
 }
 
 /// A light that lies wholly behind the receiver is not chosen where another is not; one of which a bit shows is.
