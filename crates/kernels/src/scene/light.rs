@@ -280,12 +280,12 @@ impl LightTable {
     /// Bit of a curved light that is no sphere.
     pub const CURVED: u32 = 8;
     /// No child of a node that may send something has a smaller chance: the other one may be hidden, and its share of
-    /// the light may be one to the last bit of single precision, by which the dim one would never be asked, or so rarely
-    /// that 24 bits of a random number do not tell it. Ten steps to a light that is all there is take a twenty-fifth of
-    /// its samples.
+    /// the light may be one to the last bit of single precision, by which the dim one would never be asked, or so
+    /// rarely that 24 bits of a random number do not tell it. Ten steps to a light that is all there is take a
+    /// twenty-fifth of its samples.
     pub const LEAST_CHANCE: f32 = 1.0 / 256.0;
     /// Nor, where there are few steps, a smaller one than this over their number: a lamp in a room, which a sun outside
-    /// is a hundred times as bright as, has a sixteenth of the samples, though the sun shines in by a small window only.
+    /// is a hundred times as bright as, has a sixteenth of the samples: the sun may shine in by a small window only.
     pub const LEAST_SHARE: f32 = 1.0 / 16.0;
     /// What the row of a sky ends in.
     pub const SKY: f32 = 2.0;

@@ -173,8 +173,8 @@ impl Scene {
         self.background.iter().any(|&x| x > 0.0) || self.environment().is_some()
     }
 
-    /// Whether light comes that is never asked for, so that rays go on from the last vertices, too: that of a background
-    /// or of a sky.
+    /// Whether light comes that is never asked for, so that rays go on from the last vertices, too: that of a
+    /// background or of a sky.
     pub fn is_under_sky(&self) -> bool {
         self.is_open() || self.tables.lights.has_sky
     }

@@ -68,8 +68,8 @@ fn meshes() {
     assert_guiding_is_unbiased("meshes", &on_the_floor(objects), 256, SCENES);
 }
 
-/// The floor under a slab of water is found as well in the light of a lamp that is ten times as far away and as wide: as
-/// much light comes from there. It was not, while the chance of aimed rays went by the flux of lamps, of which little
+/// The floor under a slab of water is found as well in the light of a lamp that is ten times as far away and as wide:
+/// as much light comes from there. It was not, while the chance of aimed rays went by the flux of lamps, of which little
 /// comes from afar: the deviation of its pixels was twice that.
 #[test]
 fn far_lamps_are_found_as_well_as_near_ones() {

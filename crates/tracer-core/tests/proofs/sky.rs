@@ -35,9 +35,9 @@ fn means(film: &Film) -> [f64; 3] {
 }
 
 /// A sky of one colour is a background of that colour: in light, at every number of bounces, and of plain paths in
-/// noise. The same paths find it, and roundings send few of them elsewhere: the means agree within three standard errors
-/// of one of the pictures, and the noise within a tenth. Where rays are aimed and pixels share they are other paths, and
-/// single bright ones over glass make the noise.
+/// noise. The same paths find it, and roundings send few of them elsewhere: the means agree within three standard
+/// errors of one of the pictures, and the noise within a tenth. Where rays are aimed and pixels share they are other
+/// paths, and single bright ones over glass make the noise.
 #[test]
 fn a_sky_of_one_colour_is_a_background() {
     for integrator in ["Path", "Full"] {

@@ -95,8 +95,8 @@ pub struct Plan {
     pub casters: Casters,
     /// The curved lights.
     pub curved: Arc<[CurvedRow]>,
-    /// What all lights send towards the middle of the scene: flux, the sum of the channels, and of lights farther than a
-    /// unit over their squared distance.
+    /// What all lights send towards the middle of the scene: flux, the sum of the channels, and of lights farther than
+    /// a unit over their squared distance.
     pub sent: f32,
     /// How many photons all casters are worth, of those of mirrors in their place.
     worth: f64,

@@ -103,8 +103,8 @@ fn within_a_sky_lamps_are_asked_as_often_as_they_shine() {
                 let at = facing_up(V3::splat(p.to_array().map(|x| x as f32)));
                 let light = <S as Lanes>::U::splat(k as u32);
                 let asked = scalar(probability(&table, light, at)) / (sent / all);
-                // Groups of lamps are told by their middle: the sun and lamps on the ground as twice what they are. None
-                // of these has less than a part of the steps to it, however little it sends.
+                // Groups of lamps are told by their middle: the sun and lamps on the ground as twice what they are.
+                // None of these has less than a part of the steps to it, however little it sends.
                 let (least, most) = match (others, k) {
                     (0, _) => (0.7, 1.4),
                     (_, 0 | 1) => (0.2, 5.0),
