@@ -69,8 +69,8 @@ fn meshes() {
 }
 
 /// The floor under a slab of water is found as well in the light of a lamp that is ten times as far away and as wide:
-/// as much light comes from there. It was not, while the chance of aimed rays went by the flux of lamps, of which little
-/// comes from afar: the deviation of its pixels was twice that.
+/// as much light comes from there. It was not, while the chance of aimed rays went by the flux of lamps, of which
+/// little comes from afar: the deviation of its pixels was twice that.
 #[test]
 fn far_lamps_are_found_as_well_as_near_ones() {
     let deviation = |scale: f64| {
