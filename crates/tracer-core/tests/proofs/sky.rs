@@ -9,14 +9,17 @@ use tracer_core::Film;
 const SKY: &str = "Sphere(center: (1, 2, 3), radius: 300, material: Emissive(radiance: (0.5, 0.7, 0.9), \
      two_sided: true))";
 
-/// A matt floor, balls of all materials, a small sun and a near lamp; with a background or under a sky.
-fn described(background: &str, sky: &str, bounces: u32, integrator: &str) -> SceneDesc {
+/// A small sun and a near lamp.
+const LAMPS: &str = "SphereLight(center: (60, 80, 40), radius: 0.5, radiance: 45000), \
+     SphereLight(center: (-3, 4, 2), radius: 0.3, radiance: 12)";
+
+/// A matt floor, balls of all materials, lamps; with a background or under a sky.
+fn described([background, sky]: [&str; 2], lamps: &str, bounces: u32, integrator: &str) -> SceneDesc {
     let text = format!(
         "Scene(image: Image(width: 32, height: 32), background: {background}, \
          render: Render(max_bounces: {bounces}, integrator: {integrator}), \
          camera: Camera(position: (0, 3, 7), look_at: (0, 0.7, 0), fov: 40), \
-         lights: [SphereLight(center: (60, 80, 40), radius: 0.5, radiance: 45000), \
-             SphereLight(center: (-3, 4, 2), radius: 0.3, radiance: 12)], \
+         lights: [{lamps}], \
          objects: [{sky} Box(center: (0, -0.5, 0), size: (30, 1, 30)), \
              Sphere(center: (0, 1, 0), radius: 1, material: Diffuse(albedo: (0.8, 0.3, 0.2))), \
              Sphere(center: (-1.9, 0.8, 0.5), radius: 0.8, material: Transparent(ior: 1.5)), \
@@ -40,10 +43,11 @@ fn means(film: &Film) -> [f64; 3] {
 /// paths, and single bright ones over glass make the noise.
 #[test]
 fn a_sky_of_one_colour_is_a_background() {
-    for integrator in ["Path", "Full"] {
+    let (background, sky) = (["(0.5, 0.7, 0.9)", ""], ["0", &format!("{SKY},")]);
+    for (integrator, lamps) in ["Path", "Full"].into_iter().flat_map(|of| ["", LAMPS].map(|lamps| (of, lamps))) {
         for bounces in [0, 1, 2, 6] {
-            let background = film(&compiled(&described("(0.5, 0.7, 0.9)", "", bounces, integrator)), 64, 1);
-            let sky = film(&compiled(&described("0", &format!("{SKY},"), bounces, integrator)), 64, 1);
+            let of = |behind| film(&compiled(&described(behind, lamps, bounces, integrator)), 64, 1);
+            let [background, sky] = [background, sky].map(of);
             let noises = [&background, &sky].map(Film::relative_noise);
             // Of the mean of so many pixels, were they independent; they are not quite.
             let error = 3.0 * f64::max(noises[0], noises[1]) / 32.0 + 1e-4;
@@ -60,14 +64,14 @@ fn a_sky_of_one_colour_is_a_background() {
 /// Nor does sharing change it.
 #[test]
 fn sharing_under_a_sky_is_unbiased() {
-    assert_sharing_is_unbiased("sky", &described("0", &format!("{SKY},"), 4, "Full"), 1);
+    assert_sharing_is_unbiased("sky", &described(["0", &format!("{SKY},")], LAMPS, 4, "Full"), 1);
 }
 
 /// A camera that does not see the sphere looks in from outside, or it stands there: then it is a lamp as any other.
 #[test]
 fn a_lamp_that_is_seen_from_outside_is_no_sky() {
     let is_sky = |sky: &str| {
-        let scene = compiled(&described("0", sky, 2, "Full"));
+        let scene = compiled(&described(["0", sky], LAMPS, 2, "Full"));
         scene.lights.iter().any(tracer_core::scene::Light::is_sky)
     };
     assert!(is_sky(&format!("{SKY},")));
