@@ -47,6 +47,7 @@
 #![forbid(unsafe_code)]
 
 pub mod analysis;
+mod changes;
 pub mod codes;
 mod convert;
 mod css_colors;
@@ -84,6 +85,7 @@ mod words;
 mod write;
 mod written;
 
+pub use changes::Change;
 pub use codes::explain;
 pub use convert::{comments, convert, format, is_library};
 pub use desc::SceneDesc;

@@ -1,9 +1,9 @@
 //! Edits that diagnostics offer, applied: those that make a text better, and no others.
 
+use crate::changes::{Change, Changes};
 use crate::codes::{self, Code};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Severity};
 use crate::load::{LoadError, load_str};
-use crate::render::apply_edits;
 use crate::syntax::Syntax;
 use std::path::Path;
 
@@ -17,6 +17,8 @@ pub struct Mended {
     pub text: String,
     /// How many faults there are less than before; 0: nothing was changed.
     pub faults: usize,
+    /// What was changed, in the order of the text.
+    pub changes: Vec<Change>,
 }
 
 /// Applies what the faults of a text offer, again and again, as long as errors become fewer, or warnings where errors
@@ -32,6 +34,7 @@ pub fn mend(name: &str, text: &str, syntax: Syntax, base_dir: &Path) -> Mended {
     };
     let before = text;
     let mut text = text.to_owned();
+    let mut changes = Changes::default();
     let mut faults = look(&text);
     let first = faults.clone();
     loop {
@@ -39,12 +42,13 @@ pub fn mend(name: &str, text: &str, syntax: Syntax, base_dir: &Path) -> Mended {
             faults.iter().filter(|fault| is_certain(fault)).filter_map(|fault| fault.edit.clone()).collect();
         let singly = edits.iter().take(if edits.len() > 1 { MOST_TRIED } else { 0 }).map(std::slice::from_ref);
         let better = std::iter::once(edits.as_slice()).chain(singly).find_map(|edits| {
-            let next = apply_edits(&text, edits);
+            let mut kept = changes.clone();
+            let next = kept.apply(&text, edits);
             let left = (next != text).then(|| look(&next))?;
-            (count(&left) < count(&faults)).then_some((next, left))
+            (count(&left) < count(&faults)).then_some((next, left, kept))
         });
         match better {
-            Some(better) => (text, faults) = better,
+            Some(better) => (text, faults, changes) = better,
             None => break,
         }
     }
@@ -54,7 +58,7 @@ pub fn mend(name: &str, text: &str, syntax: Syntax, base_dir: &Path) -> Mended {
             (text, faults) = (kept, left);
         }
     }
-    Mended { text, faults: first.len().saturating_sub(faults.len()) }
+    Mended { faults: first.len().saturating_sub(faults.len()), changes: changes.between(before, &text), text }
 }
 
 /// Whether an edit is what must have been meant. Of names that a person has given nobody knows which one was.

@@ -463,21 +463,31 @@ pub fn github_lines(diagnostics: &[Diagnostic], sources: &[Source]) -> String {
 
 /// A text with edits made, those that overlap an earlier one left out. For editors that mend a file, and for tests.
 pub fn apply_edits(text: &str, edits: &[Edit]) -> String {
-    let mut sorted: Vec<&Edit> = edits.iter().collect();
-    sorted.sort_by_key(|edit| edit.span);
     let mut out = String::with_capacity(text.len());
     let mut at = 0;
-    for edit in sorted {
-        let (start, end) = (floor(text, edit.span.start as usize), floor(text, edit.span.end as usize));
-        if start < at {
-            continue;
-        }
-        out.push_str(&text[at..start]);
-        out.push_str(&edit.replacement);
-        at = end.max(start);
+    for (bytes, replacement) in in_order(text, edits) {
+        out.push_str(&text[at..bytes.start]);
+        out.push_str(replacement);
+        at = bytes.end;
     }
     out.push_str(&text[at..]);
     out
+}
+
+/// The edits in the order of the text, without those that begin before the one before them ends.
+pub(crate) fn in_order<'e>(text: &str, edits: &'e [Edit]) -> Vec<(Range<usize>, &'e str)> {
+    let mut sorted: Vec<&Edit> = edits.iter().collect();
+    sorted.sort_by_key(|edit| edit.span);
+    let mut at = 0;
+    let mut all = Vec::with_capacity(sorted.len());
+    for edit in sorted {
+        let (start, end) = (floor(text, edit.span.start as usize), floor(text, edit.span.end as usize));
+        if start >= at {
+            at = end.max(start);
+            all.push((start..at, edit.replacement.as_str()));
+        }
+    }
+    all
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ fn check_all(args: &CheckArgs, shell: &Shell) -> Result<ExitCode, Failure> {
     let many = scenes.len();
     for scene in scenes {
         let syntax = args.syntax.map(Syntax::from);
-        let mended = if args.fix { fix::fix(&scene, syntax, shell) } else { Ok(()) };
+        let mended = if args.fix { fix::fix(&scene, syntax, args.diagnostics, shell) } else { Ok(()) };
         match mended.and_then(|()| check(args, scene, shell)) {
             Ok(()) => {}
             // The others are checked all the same.

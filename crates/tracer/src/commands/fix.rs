@@ -1,5 +1,6 @@
 //! `tracer check --fix`: the edits that diagnostics offer, written into the scene.
 
+use crate::args::DiagnosticsForm;
 use crate::failure::Failure;
 use crate::loading::{is_dash, read_text};
 use crate::shell::{Shell, counted};
@@ -7,8 +8,8 @@ use crate::write::save;
 use scene_format::{Syntax, mend};
 use std::path::Path;
 
-/// Mends what can be mended for certain in a scene file; says how much that was.
-pub(super) fn fix(scene: &Path, syntax: Option<Syntax>, shell: &Shell) -> Result<(), Failure> {
+/// Mends what can be mended for certain in a scene file; says what was changed, a line for each change.
+pub(super) fn fix(scene: &Path, syntax: Option<Syntax>, form: DiagnosticsForm, shell: &Shell) -> Result<(), Failure> {
     if is_dash(scene) {
         return Err(Failure::wrong("--fix writes into files; standard input is none"));
     }
@@ -19,7 +20,15 @@ pub(super) fn fix(scene: &Path, syntax: Option<Syntax>, shell: &Shell) -> Result
     let mended = mend(&name, &before, syntax, scene.parent().unwrap_or(Path::new("")));
     if mended.text != before {
         save(scene, mended.text.as_bytes())?;
-        shell.say(&format!("{name}: mended {}", counted(mended.faults.max(1), "fault")));
+        for change in &mended.changes {
+            shell.say(&match form {
+                DiagnosticsForm::Json => change.json(&name),
+                _ => format!("{name}:{}:{}: {}", change.line, change.column, change.said()),
+            });
+        }
+        if form != DiagnosticsForm::Json {
+            shell.say(&format!("{name}: mended {}", counted(mended.faults.max(1), "fault")));
+        }
     }
     Ok(())
 }

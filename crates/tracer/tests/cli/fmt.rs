@@ -37,7 +37,11 @@ fn what_is_certain_is_mended() {
                  (0, 0, 0))],\n)\n";
     sandbox.write("a.ron", wrong);
     // One sphere has no radius: that is for the person.
-    sandbox.run(&["check", "a.ron", "--fix"]).ends(2).says(&["a.ron: mended 3 faults", "radius"]);
+    sandbox.run(&["check", "a.ron", "--fix"]).ends(2).says(&[
+        "a.ron:2:5: `bakground` is now `background`\n",
+        "a.ron:3:22: `centre` is now `center`\na.ron:3:41: `radus` is now `radius`\na.ron: mended 3 faults",
+        "radius",
+    ]);
     let mended = "Scene(\n    background: 1, // light\n    objects: [Sphere(center: (0, 0, 0), radius: 1), \
                   Sphere(center: (0, 0, 0))],\n)\n";
     assert_eq!(sandbox.text("a.ron"), mended);
@@ -45,6 +49,10 @@ fn what_is_certain_is_mended() {
     assert_eq!(sandbox.text("a.ron"), mended);
     sandbox.write("b.ron", mended.replace("Sphere(center: (0, 0, 0))", "Sphere(center: (0, 0, 0), radius: Some(2))"));
     sandbox.run(&["check", "b.ron", "--fix"]).ends(0);
+    sandbox.write("c.ron", wrong.replace(", Sphere(center: (0, 0, 0))", ""));
+    let record =
+        r#"{"severity":"mended","code":"","message":"`radus` is now `radius`","place":{"file":"c.ron","bytes":["#;
+    sandbox.run(&["check", "c.ron", "--fix", "--diagnostics", "json"]).ends(0).says(&[record, r#""before":"radus""#]);
     sandbox.run(&["check", "-", "--fix"]).ends(2).says(&["standard input"]);
 }
 
