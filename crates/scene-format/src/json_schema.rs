@@ -105,7 +105,8 @@ fn type_schema(kind: Type, rule: &Rule, definitions: &mut Map<String, Value>) ->
         Type::List(inner) => {
             let item = Value::Object(type_schema(*inner, rule, definitions));
             let (repeat, pick) = (alone(&REPEAT, definitions), alone(&PICK, definitions));
-            json!({ "type": "array", "items": { "anyOf": [item, repeat, pick] } })
+            let list = json!({ "type": "array", "items": { "anyOf": [item, repeat, pick] } });
+            if kind.is_of_values() { or_expression(list) } else { list }
         }
         Type::Map(inner) => {
             json!({ "type": "object", "additionalProperties": type_schema(*inner, rule, definitions) })

@@ -82,6 +82,10 @@ Scene(
 ```
 
 - `vars` stand in any order and may use each other; `--set vars.height=1` sets one from the command line.
+- A list of points, numbers or colours stands by its name, too, wherever such a list may stand: `vars: { \"profile\": \
+[(0.5, 0), (0.3, 1), (0, 1.2)] }` and
+  `Lathe(profile: \"=profile\")`, in as many shapes as use it; `list[0]` is its first item, `len(list)` says how many \
+there are.
 - `+ - * / % ^`, comparisons, `&& || !`; `%` has the divisor's sign; `-2^2` is -4. Vectors go component by component, \
 also with
   numbers; `p.x`, `c.r` and `list[0]` are their parts.

@@ -59,6 +59,19 @@ impl Type {
         }
     }
 
+    /// Whether it is a list of values that stand in `vars`: numbers, points and colours, or lists of these. An
+    /// expression may stand for it.
+    pub fn is_of_values(self) -> bool {
+        match self {
+            Type::List(of) => {
+                let is_value = matches!(of, Type::Number | Type::Integer | Type::Pair | Type::Vector | Type::Color);
+                is_value || of.is_of_values()
+            }
+            Type::OneOf(kinds) => kinds.iter().any(|kind| kind.is_of_values()),
+            _ => false,
+        }
+    }
+
     /// The fields of a group of the scene, also where a name may stand for it.
     pub fn group(self) -> Option<&'static StructDef> {
         match self {

@@ -1,8 +1,9 @@
 //! What stands where a list is to be: things by their names, `true` for all words that may stand in it.
 
-use super::{Reader, describe, plain, squeezed};
+use super::{Reader, Step, describe, is_expression, plain, squeezed};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
+use crate::expression::{List, Value};
 use crate::schema::{Content, FieldDef, Type, VariantDef};
 use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
@@ -50,7 +51,86 @@ pub(super) fn is_of_points(at: &FieldDef) -> bool {
     matches!(at.kind, Type::List(of) if is_point(of) || matches!(of, Type::List(of) if is_point(of)))
 }
 
+/// Whether the items of a list are more than a number each.
+fn is_of_points_or_lists(kind: &Type) -> bool {
+    matches!(kind, Type::List(of) if !matches!(of, Type::Number | Type::Integer))
+}
+
 impl Reader<'_> {
+    /// The items of a list that an expression stands for, `"=profile"`: each is read at the place of the expression.
+    pub(super) fn items_of_value<'t, 's>(
+        &mut self,
+        item: Item<'t, 's>,
+        at: &'static FieldDef,
+        read: &mut dyn FnMut(&mut Self, Item<'t, 's>),
+    ) -> Option<()> {
+        if !at.kind.is_of_values() {
+            return self.not_a_list(item, at);
+        }
+        if !is_expression(item) {
+            // A name of `vars` without its sign.
+            let name = item.text();
+            let known = matches!(item.kind(), Kind::Text | Kind::Word) && self.knows_var(&name);
+            if known {
+                let (expected, _) = list_of_words(at, item);
+                return self.wrong_kind(item, at.noun, &expected, Some(format!("\"={name}\"")));
+            }
+            return self.not_a_list(item, at);
+        }
+        let value = self.expression(item)??;
+        let items = match &value {
+            Value::List(list) => list.clone(),
+            // Two or three numbers are a pair or a vector there.
+            Value::Pair(_) | Value::Triple(_) if !is_of_points_or_lists(&at.kind) => {
+                List::new(value.numbers().iter().map(|number| Value::Number(*number)).collect())?
+            }
+            _ => return self.wrong_value(&value, item, at),
+        };
+        if self.is_of_another_depth(&items, item, at) || !self.takes_copies(item, items.items().len() as u64) {
+            return None;
+        }
+        let around = self.vars.element.take();
+        for (index, value) in items.items().iter().enumerate() {
+            if self.sink.is_full() {
+                break;
+            }
+            self.vars.element = Some((item.index() as u32, value.clone()));
+            self.path.push(Step::Index(index));
+            read(self, item);
+            self.path.pop();
+        }
+        self.vars.element = around;
+        Some(())
+    }
+
+    /// One ring where a list of them stands, or numbers one after the other where points do: told once.
+    fn is_of_another_depth(&mut self, items: &List, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
+        let (Some(first), Type::List(of)) = (items.items().first(), at.kind) else { return false };
+        let way = match (first, of) {
+            (Value::Pair(_), Type::List(Type::Pair)) => Some(format!("[{}]", item.lexeme())),
+            (Value::Number(_), Type::Pair | Type::Vector | Type::List(_)) => None,
+            _ => return false,
+        };
+        let message = format!(
+            "{} cannot be a list of {}",
+            plain(at.noun),
+            match first {
+                Value::Pair(_) => "points",
+                _ => "numbers",
+            }
+        );
+        let expected = super::value::expected_for(at, item);
+        let mut fault = Diagnostic::error(codes::EXPRESSION_TYPE, item.span(), message).expected(expected);
+        if let Some(way) = way {
+            fault.hint = format!("write {way}");
+            fault.edit = Some(Edit { span: item.span(), replacement: way });
+        } else if let Type::Pair | Type::Vector = of {
+            fault.hint = "in `vars`, too, each point stands in brackets of its own".to_owned();
+        }
+        self.report(fault);
+        true
+    }
+
     /// Objects or lights by their names, `{ "ball": Sphere(..) }`: reported here, with the list that is meant. `false`:
     /// it is something else.
     pub(super) fn list_by_names(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {

@@ -463,7 +463,7 @@ impl<'r> Reader<'r> {
         read: &mut dyn FnMut(&mut Self, Item<'t, 's>),
     ) -> Option<()> {
         if item.kind() != Kind::List {
-            return self.not_a_list(item, at);
+            return self.items_of_value(item, at, read);
         }
         if self.flat_list(item, at) {
             return None;

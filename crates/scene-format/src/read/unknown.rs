@@ -314,7 +314,9 @@ fn suits(value: Item<'_, '_>, kind: &Type, field: &FieldDef) -> bool {
         },
         Type::Rows => brackets && value.name().is_none() && value.children().all(|row| row.name().is_none()),
         Type::Color => item != Kind::Bool,
-        Type::List(inner) => brackets || matches!((item, inner), (Kind::Text, Type::File)),
+        Type::List(inner) => {
+            brackets || expression && kind.is_of_values() || matches!((item, inner), (Kind::Text, Type::File))
+        }
         Type::Map(_) => brackets,
         Type::Struct(def) => def.bare.is_some() || !number && item != Kind::Bool,
         Type::Enum(_) => !number && item != Kind::Bool && (item != Kind::Text || value.syntax() != Syntax::Ron),

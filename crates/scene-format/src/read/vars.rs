@@ -51,6 +51,8 @@ pub(super) struct Table {
     by_name: BTreeMap<Arc<str>, usize>,
     /// Where those of each repetition begin.
     frames: Vec<usize>,
+    /// The item of a list that is being read where the expression stands whose place on the tape this is.
+    pub(super) element: Option<(u32, Value)>,
     /// So many are being reckoned, each for the one before.
     open: usize,
     /// Where one takes radians for degrees, which was told.
@@ -323,12 +325,12 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether there is a var of this name.
     /// Whether any name has a value.
     pub(super) fn has_vars(&self) -> bool {
         !self.vars.list.is_empty()
     }
 
+    /// Whether there is a var of this name.
     pub(super) fn knows_var(&self, name: &str) -> bool {
         self.vars.find(name).is_some()
     }
@@ -338,6 +340,9 @@ impl Reader<'_> {
     pub(crate) fn expression(&mut self, item: Item<'_, '_>) -> Option<Option<Value>> {
         if !is_expression(item) {
             return None;
+        }
+        if let Some((_, value)) = self.vars.element.as_ref().filter(|(place, _)| *place == item.index() as u32) {
+            return Some(Some(value.clone()));
         }
         let text = item.text();
         let body = text.strip_prefix('=')?;

@@ -4,7 +4,7 @@ use crate::codes;
 use crate::desc::{Color, Vec3};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::form::Form;
-use crate::read::{Reader, make_room};
+use crate::read::{Reader, is_expression, make_room};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
 use crate::words::Words;
@@ -99,6 +99,16 @@ static CORNER: FieldDef = FieldDef {
     doc: &[],
     kind: Type::Integer,
     rule: Rule::within("the number of a point", 0.0, u32::MAX as f64),
+    default: None,
+};
+
+/// A face that an expression comes to.
+static FACE_OF_VALUE: FieldDef = FieldDef {
+    name: "",
+    noun: "a face of a mesh",
+    doc: &[],
+    kind: Type::List(&Type::Integer),
+    rule: Rule::ANY,
     default: None,
 };
 
@@ -213,11 +223,18 @@ fn written<T>(whole: bool, value: T, item: Item<'_, '_>) -> Written<T> {
 /// Reads the corners of a face.
 fn face(reader: &mut Reader<'_>, item: Item<'_, '_>, all: Item<'_, '_>, corners: &mut Vec<u32>) -> Option<()> {
     let bare = matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
-    if !bare {
+    let is_value = is_expression(item);
+    if !bare && !is_value {
         return reader.wrong_kind(item, "a face of a mesh", FACE, None);
     }
     let (first, mut good) = (corners.len(), true);
-    for child in item.children() {
+    if is_value {
+        reader.items(item, &FACE_OF_VALUE, |reader, child| match corner(reader, child) {
+            Some(corner) => corners.push(corner),
+            None => good = false,
+        })?;
+    }
+    for child in item.children().filter(|_| bare) {
         if child.kind() == Kind::Broken {
             good = false;
             continue;

@@ -29,6 +29,7 @@ pub(super) fn read<P: Words>(
     if points.is_empty() && wrong > 1 {
         // Points of the plane where points of space stand, or the other way round: that is one mistake.
         reader.once(told, codes::WRONG_COUNT, wrong);
+        reader.once(told, codes::EXPRESSION_TYPE, wrong);
     }
     if !whole || reader.passed_over || item.is_damaged() {
         return None;

@@ -4,6 +4,7 @@ use super::{Placements, TubeCurve, points};
 use crate::codes;
 use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform, Vec3};
 use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::expression::Value;
 use crate::files::FileKind;
 use crate::form::Form;
 use crate::path::{NEAR, Point3, distinct, length, shown, sub};
@@ -266,6 +267,11 @@ impl Words for Radii {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         if item.kind() == Kind::List {
+            return points::read(reader, item, at, &RADIUS, ("a list of radii", 2)).map(Radii::Each);
+        }
+        if let Some(value) = reader.expression(item)
+            && !matches!(value?, Value::Number(_) | Value::Bool(_))
+        {
             return points::read(reader, item, at, &RADIUS, ("a list of radii", 2)).map(Radii::Each);
         }
         f64::read(reader, item, at).map(Radii::All)

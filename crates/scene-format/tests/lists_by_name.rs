@@ -1,0 +1,107 @@
+//! Lists in `vars`, and expressions that stand for a whole list of points, numbers or colours.
+
+use scene_format::{Defaults, Diagnostics, LoadError, Syntax, load_str, mend, to_ron};
+use std::path::Path;
+
+/// What is wrong with a scene, or the scene with all that it comes to.
+fn read(text: &str, syntax: Syntax) -> Result<String, Diagnostics> {
+    match load_str("scene", text, syntax, Path::new(""), &[]) {
+        Ok(loaded) => Ok(to_ron(&loaded.scene, Defaults::Hidden)),
+        Err(LoadError::Invalid { diagnostics, .. }) => Err(diagnostics),
+        Err(error) => panic!("{error}"),
+    }
+}
+
+fn scene(vars: &str, object: &str) -> String {
+    format!("Scene(background: 1, vars: {{ {vars} }}, objects: [{object}])")
+}
+
+const POINTS: &str = "[(0, 0, 0), (1, 0, 0), (0, 1, 0)]";
+
+/// By its name a list is the list as it is written.
+#[test]
+fn a_list_by_name_is_the_list() {
+    let ring = "[(0.5, 0), (0.4, 1), (0, 1.2)]";
+    for (vars, by_name, written) in [
+        (format!("\"p\": {ring}"), "Lathe(profile: \"=p\")", format!("Lathe(profile: {ring})")),
+        (
+            format!("\"p\": {ring}"),
+            "Extrude(outline: [\"=p\"], depth: 1)",
+            format!("Extrude(outline: [{ring}], depth: 1)"),
+        ),
+        (
+            format!("\"p\": [{ring}]"),
+            "Extrude(outline: \"=p\", depth: 1)",
+            format!("Extrude(outline: [{ring}], depth: 1)"),
+        ),
+        (format!("\"p\": {POINTS}"), "Polygon(points: \"=p\")", format!("Polygon(points: {POINTS})")),
+        (
+            format!("\"p\": {POINTS}, \"r\": [0.1, 0.2, 0.3]"),
+            "Tube(points: \"=p\", radius: \"=r\")",
+            format!("Tube(points: {POINTS}, radius: [0.1, 0.2, 0.3])"),
+        ),
+        (
+            format!("\"p\": {POINTS}, \"f\": [[0, 1, 2]], \"c\": [\"#ff0000\", (0, 1, 0), (0, 0, 1)]"),
+            "Mesh(points: \"=p\", faces: \"=f\", colors: \"=c\")",
+            format!("Mesh(points: {POINTS}, faces: [[0, 1, 2]], colors: [\"#ff0000\", (0, 1, 0), (0, 0, 1)])"),
+        ),
+        // Of several lists, and within a repetition, whose own name hides the other.
+        (
+            format!("\"p\": {POINTS}, \"all\": [\"=p\", \"=p\"]"),
+            "Polygon(points: \"=all[1]\")",
+            format!("Polygon(points: {POINTS})"),
+        ),
+        (
+            format!("\"r\": 1, \"p\": [(\"=r\", 0), (0, \"=r\")]"),
+            "Repeat(count: 1, vars: { \"r\": 5 }, items: [Lathe(profile: \"=p\")])",
+            "Lathe(profile: [(1, 0), (0, 1)])".to_owned(),
+        ),
+    ] {
+        let found = read(&scene(&vars, by_name), Syntax::Ron).map_err(|faults| format!("{by_name}: {faults:#?}"));
+        let right = read(&scene("", &written), Syntax::Ron).map_err(|faults| format!("{written}: {faults:#?}"));
+        assert_eq!(found, right);
+    }
+}
+
+#[test]
+fn toml_and_json_have_it_too() {
+    let ron = read(&scene("\"p\": [(0.5, 0), (0, 1)]", "Lathe(profile: \"=p\")"), Syntax::Ron).expect("a scene");
+    let toml = "background = 1\nvars = { p = [[0.5, 0], [0, 1]] }\nobjects = [{ Lathe = { profile = \"=p\" } }]\n";
+    assert_eq!(read(toml, Syntax::Toml).expect("a scene"), ron);
+    let json = "{\"background\": 1, \"vars\": {\"p\": [[0.5, 0], [0, 1]]}, \"objects\": [{\"Lathe\": {\"profile\": \
+                \"=p\"}}]}";
+    assert_eq!(read(json, Syntax::Json).expect("a scene"), ron);
+}
+
+/// Without its sign the name is not read, and the hint says how: once, and mended.
+#[test]
+fn what_is_wrong_with_such_a_list_is_told_once() {
+    let mut wrong = Vec::new();
+    for (vars, object, hint, right) in [
+        ("\"p\": [(1, 0), (0, 1)]", "Lathe(profile: p)", "write \"=p\"", Some("Lathe(profile: \"=p\")")),
+        ("\"p\": [(1, 0), (0, 1)]", "Lathe(profile: \"p\")", "write \"=p\"", Some("Lathe(profile: \"=p\")")),
+        (
+            "\"p\": [(1, 0), (0, 1), (0, 0)]",
+            "Extrude(outline: \"=p\", depth: 1)",
+            "write [\"=p\"]",
+            Some("Extrude(outline: [\"=p\"], depth: 1)"),
+        ),
+        ("\"p\": [1, 0, 0, 0, 1, 0]", "Polygon(points: \"=p\")", "each point stands in brackets", None),
+        ("\"p\": 3", "Polygon(points: \"=p\")", "", None),
+        ("\"p\": [(0, 0), (1, 0), (1, 1)]", "Polygon(points: \"=p\")", "", None),
+        ("\"p\": [(0, 0, 0), (1, 0, 0)]", "Polygon(points: \"=p\")", "", None),
+        ("\"p\": [(0, 0)]", "Lathe(profile: \"=q\")", "did you mean `p`?", None),
+    ] {
+        let text = scene(vars, object);
+        match read(&text, Syntax::Ron) {
+            Err(faults) if matches!(&*faults, [only] if only.hint.contains(hint)) => {}
+            other => wrong.push(format!("{object}, not {hint:?}: {other:#?}")),
+        }
+        let mended = mend("scene", &text, Syntax::Ron, Path::new("")).text;
+        let right = right.map_or(text, |right| scene(vars, right));
+        if mended != right {
+            wrong.push(format!("{object} becomes {mended}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
