@@ -4,6 +4,7 @@
 //! what is wrong at the very value, and returns `None`, so that the rest is read all the same and nothing is said
 //! twice.
 
+mod ambiguous;
 mod camera;
 mod check;
 mod clock;

@@ -1,7 +1,8 @@
 //! Several fields of other programs that say together what one of ours says: `width` and `height`, `min` and `max`.
 
+use super::ambiguous;
 use super::elsewhere::{Fields, numbers, whole_field};
-use super::transforms_elsewhere::placed;
+use super::transforms_elsewhere::{as_radians, placed};
 use super::unknown::Unknown;
 use crate::diagnostic::{Edit, Span};
 use crate::syntax::{Syntax, decode};
@@ -45,26 +46,8 @@ const C: &[&str] = &["c", "p2", "v2"];
 
 const POINTS: [&str; 2] = ["points: [(x, y, z), ..]", "points = [[x, y, z], ..]"];
 
-const CENTER: &[&str] = &["center", "centre", "position", "pos", "location"];
-const BASE: &[&str] = &["base", "base_center", "bottom", "start", "from"];
-const HEIGHT: &[&str] = &["height", "length", "h"];
-
-const ENDS: [&str; 2] = ["from: (x, y, z), to: (x, y, z)", "from = [x, y, z], to = [x, y, z]"];
-
 const ROWS: &[Row] = &[
-    ("Cylinder", &[CENTER, HEIGHT], &["from", "to"], ENDS, ends_about),
-    ("Cone", &[CENTER, HEIGHT], &["from", "to"], ENDS, ends_about),
-    ("Capsule", &[CENTER, HEIGHT], &["from", "to"], ENDS, ends_about),
-    ("Cylinder", &[BASE, HEIGHT], &["from", "to"], ENDS, ends_above),
-    ("Cone", &[BASE, HEIGHT], &["from", "to"], ENDS, ends_above),
-    ("Capsule", &[BASE, HEIGHT], &["from", "to"], ENDS, ends_above),
-    (
-        "Plane",
-        &[&["y", "height", "level", "elevation"]],
-        &["point"],
-        ["point: (0, y, 0)", "point = [0, y, 0]"],
-        at_height,
-    ),
+    ("Plane", &[&["y", "level", "elevation"]], &["point"], ["point: (0, y, 0)", "point = [0, y, 0]"], at_height),
     (
         "Box",
         &[MIN, MAX],
@@ -110,7 +93,8 @@ const ROWS: &[Row] = &[
 
 /// What is said of a field that is one of several; `None` where the others are not there.
 pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
-    ROWS.iter().find_map(|row| of_row(unknown, row)).or_else(|| by_axes(unknown)).or_else(|| placed(unknown))
+    let of_rows = || ROWS.iter().find_map(|row| of_row(unknown, row));
+    ambiguous::of(unknown).or_else(of_rows).or_else(|| by_axes(unknown)).or_else(|| placed(unknown))
 }
 
 /// Degrees or factors by their axes: `Rotate(x: 30, y: 40)`, `Scale(x: 2)`. One turn goes about one axis.
@@ -145,6 +129,11 @@ fn by_axes(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
         })
         .collect();
     let (hint, mended) = match (def.name, turns.as_slice()) {
+        ("Rotate", [only]) if let Some(radians) = AXES.iter().find_map(|axis| said(axis)).and_then(as_radians) => {
+            let degrees = |degrees: &str| write("degrees", degrees);
+            let only = only.rsplit_once(", ").map_or("", |(axis, _)| axis);
+            (format!("angles are in degrees: if that is in radians, write `{only}, {}`", degrees(&radians)), None)
+        }
         ("Rotate", [only]) => (format!("write `{only}`"), Some(only.clone())),
         ("Rotate", []) => (format!("write `{}, {}`", write("axis", &unit("x")), write("degrees", "30")), None),
         ("Rotate", turns) => {
@@ -301,27 +290,6 @@ fn point(item: &Item<'_, '_>) -> Option<[f64; 3]> {
 /// A reckoned number: what sums of decimal fractions leave over is not meant.
 fn shown(value: f64) -> String {
     format!("{}", (value * 1e9).round() / 1e9 + 0.0)
-}
-
-/// The two ends of what stands upright.
-fn ends(low: [f64; 3], high: f64, syntax: Syntax) -> String {
-    let name = |field: &str| Fields(syntax).name(field);
-    let end = |y: f64| bracketed(&[low[0], y, low[2]].map(shown), syntax);
-    format!("{}{}, {}{}", name("from"), end(low[1]), name("to"), end(high))
-}
-
-/// Of a middle and a height.
-fn ends_about(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
-    let [middle, height] = values else { return None };
-    let ([x, y, z], height) = (point(middle)?, height.number()?);
-    Some(ends([x, y - height / 2.0, z], y + height / 2.0, syntax))
-}
-
-/// Of a lower end and a height.
-fn ends_above(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
-    let [low, height] = values else { return None };
-    let (low, height) = (point(low)?, height.number()?);
-    Some(ends(low, low[1] + height, syntax))
 }
 
 /// Of a height.

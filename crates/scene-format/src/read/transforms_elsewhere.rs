@@ -4,7 +4,7 @@ use super::elsewhere::{Fields, axis, degrees, fields_named, matrix_rows, numbers
 use super::synonyms::synonyms;
 use super::together::{Together, in_place_of};
 use super::unknown::Unknown;
-use super::{LOOK_AT, Reader};
+use super::{LOOK_AT, Reader, is_expression};
 use crate::codes;
 use crate::desc::TransformWords;
 use crate::desc::matrix::unnamed_rows;
@@ -45,7 +45,9 @@ impl Reader<'_> {
                     syntax => syntax.of_toml(steps.form_of_toml).into_owned(),
                 },
             );
-        if steps.certain {
+        if steps.in_radians {
+            fault = fault.hint(format!("angles are in degrees: if that is in radians, write {mended}"));
+        } else if steps.certain {
             fault = fault.hint(format!("write {mended}"));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
         } else {
@@ -156,6 +158,7 @@ fn steps_of_fields(item: Item<'_, '_>) -> Option<String> {
         })
     });
     let steps: Option<Vec<Vec<Meant>>> = steps.collect();
+    let steps = steps.filter(|steps| steps.iter().flatten().all(|step| step.certain));
     steps.map(|steps| listed(&steps.concat(), item.syntax()))
 }
 
@@ -199,20 +202,35 @@ struct Meant {
     toml: String,
     /// Whether it is all that was meant.
     certain: bool,
+    /// Whether an angle was taken for one in radians.
+    in_radians: bool,
+}
+
+/// A number or an expression as it is written.
+fn one<'s>(item: Item<'_, 's>) -> Option<&'s str> {
+    (item.number().is_some() || is_expression(item)).then(|| item.lexeme())
+}
+
+/// Numbers or expressions within brackets as they are written.
+fn reckoned<'s>(item: Item<'_, 's>) -> Option<Vec<&'s str>> {
+    let all: Option<Vec<&str>> = item.children().take(20).map(one).collect();
+    all.filter(|all| !all.is_empty())
 }
 
 fn meant_transform(name: &str, body: Item<'_, '_>) -> Option<Meant> {
     let lower = name.to_ascii_lowercase();
     let list = matches!(body.kind(), Kind::Tuple | Kind::List).then(|| numbers(body)).flatten();
     let named = matches!(body.kind(), Kind::Struct | Kind::Map);
-    let number = body.number().map(|_| body.lexeme()).or(match list.as_deref() {
+    let values = || matches!(body.kind(), Kind::Tuple | Kind::List).then(|| reckoned(body)).flatten();
+    let number = one(body).or_else(|| match values().as_deref() {
         Some([only]) => Some(*only),
         _ => None,
     });
     // `RotateX(degrees: 30)`; asked of names with an axis alone.
     let in_degrees = || {
         let all = ["degrees", "angle", "deg", "by", "theta", "value"];
-        let found = all.iter().find_map(|field| fields_named(body, [*field])).map(|[degrees]| degrees.to_owned());
+        let named = |field: &&str| body.fields().take(4).find(|(key, _)| key.text().eq_ignore_ascii_case(field));
+        let found = all.iter().find_map(named).and_then(|(_, degrees)| one(degrees)).map(str::to_owned);
         let radians = || fields_named(body, ["radians"]).map(|[radians]| degrees(decode::number(radians), radians));
         found.or_else(radians).or(number.map(str::to_owned))
     };
@@ -271,6 +289,7 @@ fn matrix(rows: &str) -> Meant {
         ron: format!("rows: {rows}"),
         toml: format!("{{ rows = {rows} }}"),
         certain: true,
+        in_radians: false,
     }
 }
 
@@ -321,11 +340,11 @@ fn step_as_field(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Op
     if def.field(name).is_some() || !synonyms(name, def).is_empty() || value.name().is_some() {
         return None;
     }
-    let three = || <[&str; 3]>::try_from(numbers(value)?).ok();
+    let three = || <[&str; 3]>::try_from(reckoned(value)?).ok();
     match name {
         "scale" | "scaling" => {
-            let factors = three().or_else(|| value.number().map(|_| [value.lexeme(); 3]))?;
-            let same = value.number().is_some();
+            let factors = three().or_else(|| one(value).map(|factor| [factor; 3]))?;
+            let same = one(value).is_some();
             let mut step = scaling(factors);
             if same {
                 (step.ron, step.toml) = (factors[0].to_owned(), factors[0].to_owned());
@@ -338,8 +357,7 @@ fn step_as_field(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Op
         }
         "rotateX" | "rotateY" | "rotateZ" | "rotate_x" | "rotate_y" | "rotate_z" => {
             let letter = name.rsplit(['e', '_']).next()?;
-            let degrees = value.number().map(|_| value.lexeme())?;
-            Some((1, vec![rotation(axis(letter)?, degrees, true)]))
+            Some((1, vec![rotation(axis(letter)?, one(value)?, true)]))
         }
         "position" | "pos" | "location" | "center" | "translate" | "translation" | "move" | "offset" => {
             Some((2, vec![translation(three()?)]))
@@ -368,6 +386,10 @@ pub(super) fn placed(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
     steps.sort_by_key(|(place, _)| *place);
     let steps: Vec<Meant> = steps.into_iter().flat_map(|(_, steps)| steps).collect();
     let mended = format!("{}{}", Fields(item.syntax()).name("transform"), listed(&steps, item.syntax()));
+    if steps.iter().any(|step| step.in_radians) {
+        let hint = Some(format!("angles are in degrees: if these are in radians, write `{mended}`"));
+        return Some(Together { hint, edit: None, fields });
+    }
     let hint = Some(format!("write `{mended}`"));
     Some(Together { hint, edit: in_place_of(&found, item, mended), fields })
 }
@@ -380,8 +402,21 @@ fn angles(degrees: [&str; 3]) -> Option<Meant> {
     Some(rotation(axis(["x", "y", "z"][at])?, degrees[at], count == 1))
 }
 
-fn rotation(axis: [&str; 3], degrees: &str, certain: bool) -> Meant {
+/// An angle that is no more than a turn in radians, and no whole number: as degrees.
+pub(super) fn as_radians(angle: Item<'_, '_>) -> Option<String> {
+    angle.number().and_then(|_| in_degrees(angle.lexeme()))
+}
+
+fn in_degrees(angle: &str) -> Option<String> {
+    let value = decode::number(angle);
+    let is_one = value.fract() != 0.0 && value.abs() <= 6.3;
+    is_one.then(|| degrees(value, angle))
+}
+
+fn rotation(axis: [&str; 3], angle: &str, certain: bool) -> Meant {
     let axis = axis.join(", ");
+    let radians = in_degrees(angle);
+    let degrees = radians.as_deref().unwrap_or(angle);
     Meant {
         kind: "Rotate",
         noun: "rotation",
@@ -389,7 +424,8 @@ fn rotation(axis: [&str; 3], degrees: &str, certain: bool) -> Meant {
         form_of_toml: "{ Rotate = { axis = [x, y, z], degrees = .. } }",
         ron: format!("axis: ({axis}), degrees: {degrees}"),
         toml: format!("{{ axis = [{axis}], degrees = {degrees} }}"),
-        certain,
+        certain: certain && radians.is_none(),
+        in_radians: radians.is_some(),
     }
 }
 
@@ -403,6 +439,7 @@ fn translation(by: [&str; 3]) -> Meant {
         ron: format!("({by})"),
         toml: format!("[{by}]"),
         certain: true,
+        in_radians: false,
     }
 }
 
@@ -416,6 +453,7 @@ fn scaling(factors: [&str; 3]) -> Meant {
         ron: format!("({factors})"),
         toml: format!("[{factors}]"),
         certain: true,
+        in_radians: false,
     }
 }
 

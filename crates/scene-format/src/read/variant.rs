@@ -263,6 +263,16 @@ impl Reader<'_> {
             return None;
         }
         let near = elsewhere.or_else(|| suggest::nearest(name, names));
+        // A word alone for a kind that needs its fields.
+        if let (None, Some(variant)) = (inner, near.and_then(|word| def.variant(word)))
+            && let (Content::Struct(_), Some(written)) = (&variant.content, alone(variant, syntax))
+            && (elsewhere.is_some() || other_kind(name, def).is_none())
+        {
+            fault.hint = format!("write {}", written.0);
+            fault.edit = written.1.then(|| Edit { span, replacement: written.0 });
+            self.report(fault);
+            return None;
+        }
         let meant = near.filter(|_| elsewhere.is_some() || other_kind(name, def).is_none());
         fault.did_you_mean(meant, |word| if quoted { format!("\"{word}\"") } else { word.to_owned() });
         if fault.hint.is_empty()
@@ -375,13 +385,13 @@ impl Reader<'_> {
             Syntax::Json => format!("`{name}` needs its fields in braces"),
         };
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, chosen.item.span(), needs).expected(expected);
-        if complete {
-            let replacement = match chosen.item.syntax() {
-                Syntax::Ron => format!("{name}()"),
-                syntax => syntax.of_toml(format!("{{ {name} = {{}} }}")).into_owned(),
-            };
-            fault.hint = format!("write {replacement} for the defaults");
-            fault.edit = Some(Edit { span: chosen.item.span(), replacement });
+        match alone(chosen.variant, chosen.item.syntax()) {
+            Some((replacement, _)) if complete => {
+                fault.hint = format!("write {replacement} for the defaults");
+                fault.edit = Some(Edit { span: chosen.item.span(), replacement });
+            }
+            Some((written, _)) if name == "Orthographic" => fault.hint = format!("write {written}"),
+            _ => {}
         }
         self.report(fault);
         None
@@ -406,6 +416,24 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// A kind with the fields that it needs, and whether these are all there; `None`: it takes a value.
+fn alone(variant: &VariantDef, syntax: Syntax) -> Option<(String, bool)> {
+    let Content::Struct(def) = variant.content else { return None };
+    let needed: Vec<&str> = def.fields.iter().filter(|field| field.default.is_none()).map(|field| field.name).collect();
+    // How high the picture is nobody knows; what is written is to be seen.
+    let value = |field: &str| if (variant.name, field) == ("Orthographic", "height") { "8" } else { ".." };
+    let name = variant.name;
+    let join = |between: &str| {
+        needed.iter().map(|field| format!("{field}{between}{}", value(field))).collect::<Vec<_>>().join(", ")
+    };
+    let written = match syntax {
+        Syntax::Ron => format!("{name}({})", join(": ")),
+        syntax if needed.is_empty() => syntax.of_toml(format!("{{ {name} = {{}} }}")).into_owned(),
+        syntax => syntax.of_toml(format!("{{ {name} = {{ {} }} }}", join(" = "))).into_owned(),
+    };
+    Some((written, needed.is_empty() && def.exactly_one.is_empty()))
 }
 
 /// What has a list of corners in another program, as a polygon.

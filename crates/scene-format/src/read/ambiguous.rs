@@ -1,0 +1,282 @@
+//! Fields of other programs that need more than another name: ends from a middle, a length and an axis, and those whose
+//! value says two things, which are told and not mended.
+
+use super::elsewhere::{self, Fields, numbers};
+use super::shortened;
+use super::together::{Together, in_place_of};
+use super::unknown::Unknown;
+use super::{LOOK_AT, is_expression};
+use crate::syntax::{Syntax, decode};
+use crate::tree::{Item, Kind};
+
+const AXIS: &[&str] = &["axis", "direction", "dir", "normal", "orientation"];
+const CENTER: &[&str] = &["center", "centre", "position", "pos", "location"];
+const BASE: &[&str] = &["base", "base_center", "bottom", "start"];
+const HEIGHT: &[&str] = &["height", "length", "h"];
+const SIDES: &[&str] = &["width", "w", "height", "h", "depth", "length"];
+
+/// What is said of such a field; `None`: it is another one.
+pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    plane(unknown).or_else(|| ends(unknown)).or_else(|| across(unknown)).or_else(|| listed(unknown))
+}
+
+type Found<'t, 's> = (Item<'t, 's>, Item<'t, 's>);
+
+/// A field of one of these names that is none of ours.
+fn find<'t, 's>(unknown: &Unknown<'_, 't, 's>, names: &[&str]) -> Option<Found<'t, 's>> {
+    let is_one = |(key, _): &Found<'t, 's>| names.contains(&&*key.text()) && unknown.def.field(&key.text()).is_none();
+    unknown.item.fields().take(LOOK_AT).find(is_one)
+}
+
+fn is_written(unknown: &Unknown<'_, '_, '_>, field: &str) -> bool {
+    unknown.item.fields().take(LOOK_AT).any(|(key, _)| key.text() == field)
+}
+
+/// Told at the first of several fields, and at the others not again.
+fn told_at_first(
+    unknown: &Unknown<'_, '_, '_>,
+    found: &[Found<'_, '_>],
+    fields: &[&'static str],
+    told: impl FnOnce() -> (String, Option<String>),
+) -> Together {
+    let fields = fields.to_vec();
+    if found.iter().any(|(key, _)| key.span().start < unknown.key.span().start) {
+        return Together { hint: None, edit: None, fields };
+    }
+    let (hint, mended) = told();
+    let edit = mended.and_then(|mended| in_place_of(found, unknown.item, mended));
+    Together { hint: Some(hint), edit, fields }
+}
+
+/// The sides of a plane, which has none.
+fn plane(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    let &Unknown { def, name, item, .. } = unknown;
+    if def.name != "Plane" || !SIDES.contains(&name) {
+        return None;
+    }
+    let found: Vec<Found<'_, '_>> = SIDES.iter().filter_map(|side| find(unknown, &[side])).collect();
+    let sides: Vec<&str> =
+        found.iter().filter(|(_, value)| value.number().is_some()).map(|(_, value)| value.lexeme()).collect();
+    let (ron, toml) = match sides[..] {
+        [a, b] => (format!("Rectangle(size: ({a}, {b}))"), format!("{{ Rectangle = {{ size = [{a}, {b}] }} }}")),
+        [a] => (format!("Rectangle(size: {a})"), format!("{{ Rectangle = {{ size = {a} }} }}")),
+        _ => return None,
+    };
+    let syntax = item.syntax();
+    let rectangle = if syntax == Syntax::Ron { ron } else { syntax.of_toml(toml).into_owned() };
+    Some(told_at_first(unknown, &found, &["point"], || {
+        let mut hint = format!("a `Plane` has no end; what has one is a {rectangle}");
+        if let ([y], "height" | "h") = (&sides[..], name) {
+            let point = Fields(syntax).name("point") + &elsewhere::vector(item, &["0", y, "0"]);
+            hint = format!("where it lies is said by a point of it, `{point}`; {hint}");
+        }
+        (hint, None)
+    }))
+}
+
+/// A coordinate or a length, which may be reckoned.
+#[derive(Clone)]
+enum Part {
+    Number(f64),
+    /// Without its sign.
+    Expression(String),
+}
+
+impl Part {
+    fn of(item: Item<'_, '_>) -> Option<Part> {
+        if is_expression(item) {
+            return Some(Part::Expression(item.text().trim_start_matches('=').trim().to_owned()));
+        }
+        item.number().map(Part::Number)
+    }
+
+    fn three(item: Item<'_, '_>) -> Option<[Part; 3]> {
+        if item.name().is_some() {
+            return None;
+        }
+        item.children().take(4).map(Part::of).collect::<Option<Vec<Part>>>()?.try_into().ok()
+    }
+
+    /// With a share of a length added, which is 1, or a half of either sign where it is reckoned.
+    fn plus(&self, share: f64, length: &Part) -> Part {
+        let length = match length {
+            Part::Number(length) => match self {
+                Part::Number(number) => return Part::Number(number + share * length),
+                Part::Expression(_) => shown(share.abs() * length),
+            },
+            Part::Expression(body) if share == 1.0 => body.clone(),
+            Part::Expression(body) if body.chars().all(|c| c.is_alphanumeric() || c == '_') => format!("{body}/2"),
+            Part::Expression(body) => format!("({body})/2"),
+        };
+        let sign = if share < 0.0 { "-" } else { "+" };
+        Part::Expression(match self {
+            Part::Number(0.0) => format!("{}{length}", sign.trim_matches('+')),
+            Part::Number(number) => format!("{}{sign}{length}", shown(*number)),
+            Part::Expression(body) => format!("{body}{sign}{length}"),
+        })
+    }
+
+    fn written(&self) -> String {
+        match self {
+            Part::Number(number) => shown(*number),
+            Part::Expression(body) => format!("\"={body}\""),
+        }
+    }
+}
+
+/// A reckoned number: what sums of decimal fractions leave over is not meant.
+fn shown(value: f64) -> String {
+    format!("{}", (value * 1e9).round() / 1e9 + 0.0)
+}
+
+/// The way of one unit that an axis says: three numbers or a letter.
+fn unit(item: Item<'_, '_>) -> Option<[f64; 3]> {
+    let of_word = || match item.kind() {
+        Kind::Word | Kind::Text | Kind::Char => elsewhere::axis(&item.text()),
+        _ => None,
+    };
+    let axis: Vec<f64> = match numbers(item).filter(|numbers| item.name().is_none() && numbers.len() == 3) {
+        Some(numbers) => numbers.iter().map(|number| decode::number(number)).collect(),
+        None => of_word()?.iter().map(|number| decode::number(number)).collect(),
+    };
+    let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let axis: [f64; 3] = axis.try_into().ok()?;
+    (length > 0.0 && length.is_finite()).then(|| axis.map(|x| x / length))
+}
+
+/// `from` and `to` of what is said by a middle or an end, a length and maybe an axis.
+fn ends(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    let &Unknown { def, name, item, .. } = unknown;
+    let of_these = [AXIS, CENTER, BASE, HEIGHT].iter().any(|names| names.contains(&name));
+    if !matches!(def.name, "Cylinder" | "Cone" | "Capsule") || !of_these {
+        return None;
+    }
+    let (axis, height) = (find(unknown, AXIS), find(unknown, HEIGHT));
+    let (center, base) = (find(unknown, CENTER), find(unknown, BASE));
+    let way = match item.syntax() {
+        Syntax::Ron => "`from: (x, y, z), to: (x, y, z)`".into(),
+        syntax => syntax.of_toml("`from = [x, y, z], to = [x, y, z]`"),
+    };
+    let Some((_, length)) = height else {
+        let told = AXIS.contains(&name).then(|| format!("its axis goes from one end to the other: {way}"));
+        return told.map(|hint| Together { hint: Some(hint), edit: None, fields: Vec::new() });
+    };
+    let start = item.fields().take(LOOK_AT).find(|(key, _)| key.text() == "from").map(|(_, value)| value);
+    let found: Vec<Found<'_, '_>> = [axis, height, center, base].into_iter().flatten().collect();
+    let one_place = [center.is_some(), base.is_some(), start.is_some()].iter().filter(|is| **is).count() < 2;
+    if !one_place || is_written(unknown, "to") {
+        return None;
+    }
+    let about = center.is_some();
+    let place = center.or(base).map(|(_, value)| value).or(start);
+    let place = place.map_or(Some([0.0; 3].map(Part::Number)), Part::three);
+    let along = axis.map_or(Some([0.0, 1.0, 0.0]), |(_, axis)| unit(axis));
+    let reckoned = place.zip(along).zip(Part::of(length)).filter(|((_, along), length)| {
+        // Lengths that are reckoned are not taken apart.
+        matches!(length, Part::Number(_)) || along.iter().all(|share| matches!(share, 0.0 | 1.0))
+    });
+    let fields: &[&'static str] = if start.is_some() { &["to"] } else { &["from", "to"] };
+    let Some(((place, along), length)) = reckoned else {
+        return Some(told_at_first(unknown, &found, fields, || (format!("write {way}"), None)));
+    };
+    let end = |share: f64, by: &Part| -> [Part; 3] {
+        std::array::from_fn(|k| match along[k] {
+            part if part * share == 0.0 => place[k].clone(),
+            part => place[k].plus(share * part, by),
+        })
+    };
+    let written = |begin: f64, last: f64, by: &Part| {
+        let point = |name: &str, share: f64| {
+            let point = end(share, by).map(|part| part.written());
+            Fields(item.syntax()).name(name) + &elsewhere::vector(item, &point.each_ref().map(|part| &**part))
+        };
+        // From the origin where nothing else is said.
+        let origin = !about && base.is_none();
+        if origin { point("to", last) } else { format!("{}, {}", point("from", begin), point("to", last)) }
+    };
+    let (begin, last) = if about { (-0.5, 0.5) } else { (0.0, 1.0) };
+    let mended = written(begin, last, &length);
+    Some(told_at_first(unknown, &found, fields, || match def.name {
+        "Capsule" => (of_capsule(unknown, &length, &mended, |inner| written(begin, last, inner)), None),
+        _ => (format!("write `{}`", super::hinted(&mended)), Some(mended)),
+    }))
+}
+
+/// The height of a capsule may be with its round ends or without them.
+fn of_capsule(
+    unknown: &Unknown<'_, '_, '_>,
+    length: &Part,
+    between: &str,
+    written: impl Fn(&Part) -> String,
+) -> String {
+    let radius = unknown.item.fields().take(LOOK_AT).find(|(key, _)| key.text() == "radius");
+    let whole = match (radius.and_then(|(_, radius)| radius.number()), length) {
+        (Some(radius), Part::Number(length)) if *length > 2.0 * radius => Some(length - 2.0 * radius),
+        _ => None,
+    };
+    let ends = "round ends reach its `radius` further than `from` and `to`";
+    match whole {
+        // Between points that lie a radius further inside on both sides.
+        Some(inner) if find(unknown, CENTER).is_some() => {
+            let within = written(&Part::Number(inner));
+            format!("{ends}: write `{between}`, or, where its whole length is meant, `{within}`")
+        }
+        _ => format!("{ends}: write `{between}`, or points a `radius` nearer where its whole length is meant"),
+    }
+}
+
+/// A size where a radius is due, which is half of it where that is from side to side.
+fn across(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    const ROUND: [&str; 8] = ["Sphere", "Disk", "SphereLight", "Torus", "Cylinder", "Cone", "Capsule", "Ring"];
+    let &Unknown { def, name, value, item, .. } = unknown;
+    if name != "size" || !ROUND.contains(&def.name) || is_written(unknown, "radius") {
+        return None;
+    }
+    let write = |field: &str, value: &str| format!("{}{value}", Fields(item.syntax()).name(field));
+    let hint = if let Some(three) = numbers(value).filter(|three| three.len() == 3 && def.name == "Sphere") {
+        let scale = elsewhere::vector(item, &three);
+        let scaled = match item.syntax() {
+            Syntax::Ron => format!("[Scale({scale})]"),
+            syntax => syntax.of_toml(format!("[{{ Scale = {scale} }}]")).into_owned(),
+        };
+        let mended = format!("{}, {}", write("radius", "0.5"), write("transform", &scaled));
+        format!("a ball with three sizes from side to side is an ellipsoid: write `{mended}`")
+    } else {
+        let half = Part::Number(0.0).plus(0.5, &Part::of(value)?);
+        let half = write("radius", &half.written());
+        format!("the `radius` is half of the size from side to side: write `{half}`")
+    };
+    Some(Together { hint: Some(hint), edit: None, fields: vec!["radius"] })
+}
+
+/// A repetition over values or over a range.
+fn listed(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    let &Unknown { def, name, value, item, .. } = unknown;
+    if def.name != "Repeat" {
+        return None;
+    }
+    let fields = Fields(item.syntax());
+    if matches!(name, "values" | "over" | "in" | "each" | "array") && value.kind() == Kind::List {
+        let of_index = |(key, _): &Found<'_, '_>| matches!(&*key.text(), "index" | "name" | "var" | "variable" | "as");
+        let index = item.fields().take(LOOK_AT).find(of_index).filter(|(_, index)| index.kind() == Kind::Text);
+        let called = index.map_or("v".into(), |(_, index)| index.text());
+        let (count, list) = (value.children().count(), shortened(value.lexeme()));
+        let vars = match item.syntax() {
+            Syntax::Ron => format!("{{ \"{called}\": Pick(from: {list}, index: \"=i\") }}"),
+            syntax => syntax
+                .of_toml(format!("{{ {called} = {{ Pick = {{ from = {list}, index = \"=i\" }} }} }}"))
+                .into_owned(),
+        };
+        let in_place = if index.is_some() { ", and no `index`" } else { "" };
+        let hint = format!("write `{}{count}, {}{vars}`{in_place}", fields.name("count"), fields.name("vars"));
+        return Some(Together { hint: Some(hint), edit: None, fields: vec!["count", "vars"] });
+    }
+    if !matches!(name, "from" | "to" | "start" | "end" | "first" | "last" | "step" | "by" | "range" | "min" | "max") {
+        return None;
+    }
+    let hint =
+        "it counts from 0, `count` times: from 1 to 8 in steps of 1 is a `count` of 8 with \"=1+i\" in its items";
+    let told = |(key, _): &Found<'_, '_>| matches!(&*key.text(), "from" | "start" | "first" | "range" | "min");
+    let found: Vec<Found<'_, '_>> = item.fields().take(LOOK_AT).filter(told).collect();
+    Some(told_at_first(unknown, &found, &["count"], || (hint.to_owned(), None)))
+}
