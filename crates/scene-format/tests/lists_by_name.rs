@@ -1,6 +1,6 @@
 //! Lists in `vars`, and expressions that stand for a whole list of points, numbers or colours.
 
-use scene_format::{Defaults, Diagnostics, LoadError, Syntax, load_str, mend, to_ron};
+use scene_format::{Defaults, Diagnostics, LoadError, Override, Syntax, load_str, mend, to_ron};
 use std::path::Path;
 
 /// What is wrong with a scene, or the scene with all that it comes to.
@@ -73,6 +73,19 @@ fn toml_and_json_have_it_too() {
     assert_eq!(read(json, Syntax::Json).expect("a scene"), ron);
 }
 
+/// On the command line, too, a list stands in square brackets.
+#[test]
+fn more_numbers_than_a_vector_has_are_a_list() {
+    let text = scene("\"data\": [1, 2]", "Box(size: \"=data[0]\")");
+    let set = [Override::from("vars.data=1,2,3,4")];
+    match load_str("scene", &text, Syntax::Ron, Path::new(""), &set) {
+        Err(LoadError::Invalid { diagnostics, .. }) => {
+            assert!(matches!(&*diagnostics, [only] if only.hint.contains("[1,2,3,4]")), "{diagnostics:#?}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
 /// Without its sign the name is not read, and the hint says how: once, and mended.
 #[test]
 fn what_is_wrong_with_such_a_list_is_told_once() {
@@ -90,7 +103,7 @@ fn what_is_wrong_with_such_a_list_is_told_once() {
         ("\"p\": 3", "Polygon(points: \"=p\")", "", None),
         ("\"p\": [(0, 0), (1, 0), (1, 1)]", "Polygon(points: \"=p\")", "", None),
         ("\"p\": [(0, 0, 0), (1, 0, 0)]", "Polygon(points: \"=p\")", "", None),
-        ("\"p\": [(0, 0)]", "Lathe(profile: \"=q\")", "did you mean `p`?", None),
+        ("\"p\": [(0, 0)]", "Lathe(profile: \"=q\")", "", None),
     ] {
         let text = scene(vars, object);
         match read(&text, Syntax::Ron) {
