@@ -164,7 +164,7 @@ fn what_may_mean_two_things_is_told_and_not_mended() {
     for (object, way) in [
         ("Plane(width: 10, height: 8)", "Rectangle(size: (10, 8))"),
         ("Plane(depth: 4)", "Rectangle(size: 4)"),
-        ("Plane(height: 2)", "by a point of it, `point: (0, 2, 0)`"),
+        ("Plane(height: 2)", "by a point of it: `point: (0, 2, 0)`"),
         ("Sphere(size: 2)", "write `radius: 1`"),
         ("Disk(size: 3)", "write `radius: 1.5`"),
         ("Sphere(size: (1, 2, 1))", "write `radius: 0.5, transform: [Scale((1, 2, 1))]`"),
@@ -172,11 +172,11 @@ fn what_may_mean_two_things_is_told_and_not_mended() {
             "Capsule(center: (0, 1, 0), height: 2, radius: 0.5)",
             "where its whole length is meant, `from: (0, 0.5, 0), to",
         ),
-        ("Capsule(height: 2, radius: 0.5)", "write `to: (0, 2, 0)`"),
+        ("Capsule(height: 2, radius: 0.5)", "write `from: (0, 0, 0), to: (0, 2, 0)`"),
         ("Cylinder(axis: (0, 0, 1), radius: 1)", "`from: (x, y, z), to: (x, y, z)`"),
         ("Box(rotation: (0, 1.57, 0))", "in radians, write `transform: [Rotate(axis: (0, 1, 0), degrees: 90)]`"),
         ("Box(transform: [RotateY(0.7854)])", "if that is in radians, write Rotate(axis: (0, 1, 0), degrees: 45)"),
-        ("Box(transform: [Rotate(x: 1.57)])", "if that is in radians, write `axis: (1, 0, 0), degrees: 90`"),
+        ("Box(transform: [Rotate(x: 1.57)])", "if that is in radians, write Rotate(axis: (1, 0, 0), degrees: 90)"),
         (
             "Repeat(values: [1, 3], index: \"v\", items: [Box(size: \"=v\")])",
             "write `count: 2, vars: { \"v\": Pick(from: [1, 3], index: \"=i\") }`, and no `index`",
@@ -223,7 +223,7 @@ fn what_goes_along_an_axis_keeps_it() {
             "Cylinder(from: (0, 1, -1), to: (0, 1, 1), radius: 0.5)",
         ),
         ("Cone(from: (1, 0, 0), axis: x, height: 2, radius: 1)", "Cone(from: (1, 0, 0), to: (3, 0, 0), radius: 1)"),
-        ("Cylinder(height: \"=2*r+1\", radius: 1)", "Cylinder(to: (0, \"=2*r+1\", 0), radius: 1)"),
+        ("Cylinder(height: \"=2*r+1\", radius: 1)", "Cylinder(from: (0, 0, 0), to: (0, \"=2*r+1\", 0), radius: 1)"),
         (
             "Cylinder(base: (0, \"=r\", 1), height: \"=2*r\", radius: 1)",
             "Cylinder(from: (0, \"=r\", 1), to: (0, \"=r+2*r\", 1), radius: 1)",
@@ -233,7 +233,11 @@ fn what_goes_along_an_axis_keeps_it() {
             "Cylinder(from: (0, \"=1-(2*r)/2\", 0), to: (0, \"=1+(2*r)/2\", 0), radius: 1)",
         ),
         ("Box(transform: [RotateY(\"=20*r\")])", "Box(transform: [Rotate(axis: (0, 1, 0), degrees: \"=20*r\")])"),
-        ("Box(position: (0, \"=r\", 0))", "Box(transform: [Translate((0, \"=r\", 0))])"),
+        (
+            "Torus(radius: 1, tube_radius: 0.2, rotation: (0, \"=r\", 0))",
+            "Torus(radius: 1, tube_radius: 0.2, transform: \
+         [Rotate(axis: (0, 1, 0), degrees: \"=r\")])",
+        ),
     ] {
         let scene = |object: &str| format!("Scene(background: 1, vars: {{ \"r\": 2 }}, objects: [{object}])");
         let mended = mend("scene", &scene(object), Syntax::Ron, Path::new(""));

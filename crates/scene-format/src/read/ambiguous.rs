@@ -17,7 +17,12 @@ const SIDES: &[&str] = &["width", "w", "height", "h", "depth", "length"];
 
 /// What is said of such a field; `None`: it is another one.
 pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
-    plane(unknown).or_else(|| ends(unknown)).or_else(|| across(unknown)).or_else(|| listed(unknown))
+    let of_shape = plane(unknown).or_else(|| ends(unknown)).or_else(|| across(unknown));
+    of_shape
+        .or_else(|| geometry(unknown))
+        .or_else(|| listed(unknown))
+        .or_else(|| corners(unknown))
+        .or_else(|| scattered(unknown))
 }
 
 type Found<'t, 's> = (Item<'t, 's>, Item<'t, 's>);
@@ -40,7 +45,9 @@ fn told_at_first(
     told: impl FnOnce() -> (String, Option<String>),
 ) -> Together {
     let fields = fields.to_vec();
-    if found.iter().any(|(key, _)| key.span().start < unknown.key.span().start) {
+    // What is written in our way is told of nowhere.
+    let is_theirs = |key: &Item<'_, '_>| unknown.def.field(&key.text()).is_none();
+    if found.iter().any(|(key, _)| is_theirs(key) && key.span().start < unknown.key.span().start) {
         return Together { hint: None, edit: None, fields };
     }
     let (hint, mended) = told();
@@ -68,7 +75,7 @@ fn plane(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
         let mut hint = format!("a `Plane` has no end; what has one is a {rectangle}");
         if let ([y], "height" | "h") = (&sides[..], name) {
             let point = Fields(syntax).name("point") + &elsewhere::vector(item, &["0", y, "0"]);
-            hint = format!("where it lies is said by a point of it, `{point}`; {hint}");
+            hint = format!("where it lies is said by a point of it: `{point}`");
         }
         (hint, None)
     }))
@@ -161,21 +168,21 @@ fn ends(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
         let told = AXIS.contains(&name).then(|| format!("its axis goes from one end to the other: {way}"));
         return told.map(|hint| Together { hint: Some(hint), edit: None, fields: Vec::new() });
     };
-    let start = item.fields().take(LOOK_AT).find(|(key, _)| key.text() == "from").map(|(_, value)| value);
-    let found: Vec<Found<'_, '_>> = [axis, height, center, base].into_iter().flatten().collect();
+    let start = item.fields().take(LOOK_AT).find(|(key, _)| key.text() == "from");
+    let found: Vec<Found<'_, '_>> = [axis, height, center, base, start].into_iter().flatten().collect();
     let one_place = [center.is_some(), base.is_some(), start.is_some()].iter().filter(|is| **is).count() < 2;
     if !one_place || is_written(unknown, "to") {
         return None;
     }
     let about = center.is_some();
-    let place = center.or(base).map(|(_, value)| value).or(start);
+    let place = center.or(base).or(start).map(|(_, value)| value);
     let place = place.map_or(Some([0.0; 3].map(Part::Number)), Part::three);
     let along = axis.map_or(Some([0.0, 1.0, 0.0]), |(_, axis)| unit(axis));
     let reckoned = place.zip(along).zip(Part::of(length)).filter(|((_, along), length)| {
         // Lengths that are reckoned are not taken apart.
         matches!(length, Part::Number(_)) || along.iter().all(|share| matches!(share, 0.0 | 1.0))
     });
-    let fields: &[&'static str] = if start.is_some() { &["to"] } else { &["from", "to"] };
+    let fields = &["from", "to"];
     let Some(((place, along), length)) = reckoned else {
         return Some(told_at_first(unknown, &found, fields, || (format!("write {way}"), None)));
     };
@@ -190,9 +197,7 @@ fn ends(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
             let point = end(share, by).map(|part| part.written());
             Fields(item.syntax()).name(name) + &elsewhere::vector(item, &point.each_ref().map(|part| &**part))
         };
-        // From the origin where nothing else is said.
-        let origin = !about && base.is_none();
-        if origin { point("to", last) } else { format!("{}, {}", point("from", begin), point("to", last)) }
+        format!("{}, {}", point("from", begin), point("to", last))
     };
     let (begin, last) = if about { (-0.5, 0.5) } else { (0.0, 1.0) };
     let mended = written(begin, last, &length);
@@ -229,7 +234,9 @@ fn of_capsule(
 fn across(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
     const ROUND: [&str; 8] = ["Sphere", "Disk", "SphereLight", "Torus", "Cylinder", "Cone", "Capsule", "Ring"];
     let &Unknown { def, name, value, item, .. } = unknown;
-    if name != "size" || !ROUND.contains(&def.name) || is_written(unknown, "radius") {
+    let is_size = name == "size" && ROUND.contains(&def.name)
+        || matches!(name, "thickness" | "width" | "size") && matches!(def.name, "Tube" | "Arrow");
+    if !is_size || is_written(unknown, "radius") {
         return None;
     }
     let write = |field: &str, value: &str| format!("{}{value}", Fields(item.syntax()).name(field));
@@ -247,6 +254,73 @@ fn across(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
         format!("the `radius` is half of the size from side to side: write `{half}`")
     };
     Some(Together { hint: Some(hint), edit: None, fields: vec!["radius"] })
+}
+
+/// The shape of a mesh of three.js.
+fn geometry(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    let &Unknown { def, name, .. } = unknown;
+    let hint =
+        "a shape is a kind of its own, Sphere, Box or Cylinder, with its fields: there is no `geometry` around it";
+    let is_shape = def.field("material").is_some() && matches!(name, "geometry" | "geometries");
+    is_shape.then(|| Together { hint: Some(hint.to_owned()), edit: None, fields: def.exactly_one.to_vec() })
+}
+
+/// A rectangle by two corners opposite, which lie in a plane along two axes.
+fn corners(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    const ENDS: [&[&str]; 2] =
+        [&["min", "minimum", "lower", "corner1", "p1", "from"], &["max", "maximum", "upper", "corner2", "p2", "to"]];
+    let &Unknown { def, name, item, .. } = unknown;
+    if def.name != "Rectangle" || !ENDS.iter().any(|names| names.contains(&name)) {
+        return None;
+    }
+    let (low, high) = (find(unknown, ENDS[0])?, find(unknown, ENDS[1])?);
+    let point = |(_, value): Found<'_, '_>| -> Option<[f64; 3]> {
+        let numbers: Vec<f64> = numbers(value)?.iter().map(|number| decode::number(number)).collect();
+        numbers.try_into().ok()
+    };
+    let flat = |(low, high): ([f64; 3], [f64; 3])| {
+        let axis = (0..3).find(|&k| low[k] == high[k])?;
+        // Along s and t of a face to that axis.
+        let (s, t) = [(2, 1), (0, 2), (0, 1)][axis];
+        let three = |number: &dyn Fn(usize) -> f64| {
+            let all = [0, 1, 2].map(|k| shown(number(k)));
+            elsewhere::vector(item, &all.each_ref().map(|number| &**number))
+        };
+        let write = |field: &str, value: String| Fields(item.syntax()).name(field) + &value;
+        let sides = [s, t].map(|k| shown((high[k] - low[k]).abs()));
+        let center = write("center", three(&|k| (low[k] + high[k]) / 2.0));
+        let normal = write("normal", three(&|k| f64::from(u8::from(k == axis))));
+        let size = write("size", elsewhere::vector(item, &sides.each_ref().map(|side| &**side)));
+        Some(format!("{center}, {normal}, {size}"))
+    };
+    let mended = point(low).zip(point(high)).and_then(flat);
+    let fields = ["center", "normal", "size"];
+    Some(told_at_first(unknown, &[low, high], &fields, || match mended {
+        Some(mended) => (format!("write `{mended}`, or the `normal` the other way round"), None),
+        None => ("what is flat has a `center`, a `normal` and two numbers as its `size`".to_owned(), None),
+    }))
+}
+
+/// Where copies are scattered.
+fn scattered(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    let &Unknown { def, name, value, item, .. } = unknown;
+    let of_place =
+        matches!(name, "on" | "over" | "surface" | "radius" | "size" | "extent" | "width" | "area" | "within");
+    if def.name != "Scatter" || !of_place || is_written(unknown, "min") {
+        return None;
+    }
+    let far = value.number().map(|far| if name == "radius" { far } else { far / 2.0 }).filter(|far| *far > 0.0);
+    let far = far.unwrap_or(5.0);
+    let corner = |field: &str, far: f64| {
+        let far = shown(far);
+        Fields(item.syntax()).name(field) + &elsewhere::vector(item, &[&far, "0", &far])
+    };
+    let hint = format!(
+        "copies lie in the box between two corners, which may be flat: `{}, {}`",
+        corner("min", -far),
+        corner("max", far)
+    );
+    Some(Together { hint: Some(hint), edit: None, fields: vec!["min", "max"] })
 }
 
 /// A repetition over values or over a range.
