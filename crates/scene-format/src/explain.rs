@@ -93,7 +93,11 @@ pub fn explain_word(word: &str) -> Option<String> {
     let mut forms = vec![word.to_owned()];
     // `depth of field` and `look-at`, `spheres`, `keyframe`.
     let same = squeezed(word);
-    forms.extend(words().into_iter().find(|known| known != word && squeezed(known) == same));
+    let words = words();
+    let is_ours = words.iter().any(|known| known.eq_ignore_ascii_case(word));
+    let like = words.into_iter().find(|known| known != word && squeezed(known) == same);
+    // A word of ours in other letters comes before those of other programs.
+    forms.splice(if is_ours { 1..1 } else { 0..0 }, like);
     forms.extend(word.strip_suffix('s').filter(|one| one.len() > 2).map(str::to_owned));
     if word.len() > 2 {
         forms.push(format!("{word}s"));
@@ -306,6 +310,26 @@ mod tests {
             ("video", "--frames"),
             ("grass", "Scatter"),
             ("zoom", "`fov`"),
+            ("stairs", "Repeat("),
+            ("vase", "Lathe("),
+            ("leather", "BlinnPhong("),
+            ("data", "len(data)"),
+            ("fire", "Emissive("),
+            ("svg", "Extrude("),
+            ("planet", "Texture(file"),
+            ("stars", "Environment("),
+            ("sunset", "blackbody("),
+            ("dice", "Intersection("),
+            ("section", "Difference("),
+            ("hollow", "`caps: false`"),
+            ("rays", "Arrow"),
+            ("chart", "Repeat"),
+            ("json", "tracer convert"),
+            ("golden", "tracer golden"),
+            ("python", "import tracer"),
+            ("ffmpeg", "-framerate"),
+            ("bloom", "beyond its edge"),
+            ("vignette", "corners"),
         ] {
             let text = explain_word(word).unwrap_or_default();
             assert!(text.contains(told), "{word}: {text}");

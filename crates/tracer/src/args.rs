@@ -389,7 +389,7 @@ Examples:
 pub struct ExplainArgs {
     /// Code, as E0102, or a word of the scene language, as Sphere [default: list all codes]
     #[arg(value_name = "CODE|WORD", help = "Code or word of the language [default: list all codes]")]
-    pub code: Option<String>,
+    pub code: Vec<String>,
 }
 
 const COMPLETIONS_EXAMPLES: &str = "\

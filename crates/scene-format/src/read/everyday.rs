@@ -11,6 +11,88 @@ use crate::words::Words;
 /// Words that stand in no hint by themselves, or mean something else there.
 const WORDS: &[(&[&str], &str)] = &[
     (
+        &["stairs", "stair", "staircase", "ladder", "fence", "books", "row"],
+        "what is there many times by a rule is made by Repeat: Repeat(count: 8, items: [Box(center: (\"=0.3*i\", \
+         \"=0.2*i\", 0), size: (0.3, 0.2, 1))])",
+    ),
+    (
+        &["vase", "bottle", "cup", "mug", "glass bottle", "candlestick", "chess piece", "pawn", "bell", "plate"],
+        "what is round about an axis is a Lathe: its `profile` are points (distance from the axis, height), as in \
+         Lathe(profile: [(0, 0), (0.4, 0), (0.5, 0.4), (0.2, 0.8), (0.3, 1)], curve: CatmullRom)",
+    ),
+    (
+        &["leather", "rubber", "fabric", "cloth", "stone", "concrete", "clay", "plaster", "paper", "skin"],
+        "what is matt is Diffuse, leather and rubber with a dull gloss BlinnPhong(albedo: (0.2, 0.1, 0.06), exponent: \
+         20, specular: 0.05, energy_conserving: true); grain is a picture or a pattern, Noise(), as its `albedo`",
+    ),
+    (
+        &["data", "chart", "bars", "bar chart", "histogram", "scatter plot", "plot", "table of numbers"],
+        "numbers stand in `vars`, and a Repeat draws them: vars: { \"data\": [3, 1, 4] } and Repeat(count: \
+         \"=len(data)\", items: [Box(center: (\"=i\", \"=data[i]/2\", 0), size: (0.8, \"=data[i]\", 0.8))])",
+    ),
+    (
+        &["fire", "flame", "candle", "explosion", "smoke", "clouds", "cloud", "dust"],
+        "only surfaces are seen: a flame is a small shape that shines, Emissive(radiance: 20, color: \
+         \"=blackbody(1900)\")",
+    ),
+    (
+        &["svg", "logo", "vector graphics", "dxf", "outline of a picture"],
+        "outlines come as points: Extrude(outline: [[(0, 0), (2, 0), (1, 1.5)]], depth: 0.2), a ring for each hole; \
+         or another program makes a mesh of them, and Mesh(file: \"logo.obj\") names it",
+    ),
+    (
+        &["planet", "earth", "globe", "moon"],
+        "a planet is a Sphere with a picture of twice its height as breadth: Sphere(radius: 1, material: \
+         Diffuse(albedo: Texture(file: \"earth.png\")))",
+    ),
+    (
+        &["stars", "starry sky", "night", "space", "galaxy"],
+        "stars are a picture of all directions, `background: Environment(file: \"stars.exr\")`, or many small \
+         Spheres that shine, by Scatter",
+    ),
+    (
+        &["sunset", "sunrise", "evening", "dusk", "dawn", "golden hour"],
+        "low and warm light is a SphereLight(center: (90, 10, 30), radius: 0.5, radiance: 30000, color: \
+         \"=blackbody(3000)\") before a `background` of (0.5, 0.3, 0.25)",
+    ),
+    (
+        &["dice", "die"],
+        "a die is Intersection(objects: [Box(size: 1), Sphere(radius: 0.7)]), with its pips cut by Difference; or a \
+         Box(rounding: 0.1)",
+    ),
+    (
+        &["section", "cutaway", "cut open", "cross section", "cross-section", "clip plane", "clipping"],
+        "a body is cut open by Difference(objects: [body, Box(..)]), or by Intersection with a Plane; what is nearer \
+         to the camera than `near` is not seen",
+    ),
+    (
+        &["hollow", "shell", "wall thickness"],
+        "what is hollow is a Difference of two shapes, the inner one smaller; what is open at both ends has `caps: \
+         false`",
+    ),
+    (
+        &["ray", "rays", "light ray", "light rays", "ray tracing"],
+        "rays of light are not drawn: a ray in a figure is an Arrow or a thin Cylinder; how often light is turned is \
+         `max_bounces`",
+    ),
+    (
+        &["json", "toml", "ron", "yaml", "syntax", "convert", "converter"],
+        "scenes are written in RON, TOML or JSON, as the file's name says: `tracer convert scene.ron -o scene.json`",
+    ),
+    (
+        &["golden", "goldens", "regression", "reference image"],
+        "`tracer golden run golden` compares pictures with those that were accepted: docs/golden.md",
+    ),
+    (
+        &["python", "script", "notebook", "jupyter", "numpy"],
+        "from Python, `import tracer`; a program may also write a scene as JSON, and `tracer render -` reads it",
+    ),
+    (
+        &["ffmpeg", "mp4 of frames", "encode"],
+        "frames become a film by another program: `tracer render scene.ron --frames 0-47 -o frame_####.png`, and \
+         `ffmpeg -framerate 24 -i frame_%04d.png film.mp4`",
+    ),
+    (
         &["window", "windowpane", "pane", "door", "doorway", "opening"],
         "a hole is cut by Difference(objects: [wall, hole]); a pane is a thin Box of Transparent(ior: 1.5)",
     ),

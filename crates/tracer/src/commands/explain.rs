@@ -8,13 +8,19 @@ use std::process::ExitCode;
 
 pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode, Failure> {
     let mut out = std::io::stdout().lock();
-    match &args.code {
-        None => {
+    match args.code.as_slice() {
+        [] => {
             for code in CODES {
                 writeln!(out, "{}  {}", code.code, code.title)?;
             }
+            writeln!(
+                out,
+                "\n`tracer explain` with a code tells more; so it does with a word: `object` lists all shapes, `material` all\n\
+                 materials, `texture`, `light`, `transform`, `layer` and `projection` theirs, and `camera.fov` is one field."
+            )?;
         }
-        Some(asked) => {
+        words => {
+            let asked = &words.join(" ");
             let asked = asked.trim();
             let digits = asked.trim_start_matches(['E', 'W', 'e', 'w']);
             let kinds = match &asked[..asked.len() - digits.len()] {

@@ -304,6 +304,14 @@ fn codes_are_explained() {
     assert!(text.starts_with("E0201: "), "{text}");
     let all = sandbox.run(&["explain"]).ends(0).silent().out_text();
     assert!(all.lines().count() > 20 && all.contains("E0201"));
+    assert!(all.contains("`object` lists all shapes"), "{all}");
+    for kinds in ["object", "material", "texture", "light", "transform", "layer", "projection"] {
+        assert!(all.contains(&format!("`{kinds}`")), "{kinds}: {all}");
+        let listed = sandbox.run(&["explain", kinds]).ends(0).silent().out_text();
+        assert!(listed.contains("Kinds:\n") || kinds == "light", "{kinds}: {listed}");
+    }
+    let two = sandbox.run(&["explain", "look", "at"]).ends(0).silent().out_text();
+    assert_eq!(two, sandbox.run(&["explain", "look_at"]).ends(0).silent().out_text());
     let both = sandbox.run(&["explain", "301"]).ends(0).silent().out_text();
     assert!(both.starts_with("E0301: ") && both.contains("\nW0301: "), "{both}");
     let word = sandbox.run(&["explain", "radius"]).ends(0).silent().out_text();
