@@ -203,7 +203,7 @@ fn materials_by_their_names_and_by_a_color_alone() {
     }
     let red = scene("Diffuse(albedo: \"#ff0000\")");
     mends(&[(Ron, &scene("{ \"color\": \"red\" }"), &red), (Ron, &scene("(color: \"red\")"), &red)]);
-    told(Ron, "Scene(background: 1, objects: [Model(path: \"a.obj\")])", "Mesh(file: ..)");
+    told(Ron, "Scene(background: 1, objects: [Model(path: \"a.obj\")])", "Mesh(file: \"a.obj\")");
     let toml = "background = 1\n[[objects]]\n[objects.Box]\nsize = 1\n[objects.Box.material]\ncolor = \"red\"\n";
     told(Toml, toml, "below [objects.Box.material.Diffuse] write albedo = \"#ff0000\"");
     let sky = |sky: &str| format!("Scene(background: {sky}, objects: [Box(size: 1)])");

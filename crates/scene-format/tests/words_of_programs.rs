@@ -31,7 +31,7 @@ const BALL: &str = "Sphere(center: (0, 0, 0), radius: 1)";
 #[test]
 fn among_the_objects() {
     let cases = [
-        ("sphere_sweep(radius: 1)", "`Tube(points: .., radius: ..)`"),
+        ("sphere_sweep(radius: 1)", "`Tube(points: .., radius: 1)`"),
         ("PlyMesh(file: \"a.ply\")", "did you mean `Mesh`?"),
         ("glass()", "that is a material"),
         ("emitter()", "material: Emissive(radiance: 5)"),

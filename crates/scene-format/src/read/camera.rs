@@ -64,7 +64,11 @@ pub(crate) fn are_cameras(item: Item<'_, '_>) -> bool {
         && fields.peek().is_some()
         // One with its kind before its fields, as objects have it.
         && fields.peek().is_none_or(|(key, _)| key.text() != "Camera")
-        && fields.all(|(key, value)| !is_field(&key.text()) && is_camera(value))
+        // Nor with the kind of another program.
+        && fields.all(|(key, value)| {
+            let name = key.text();
+            !is_field(&name) && kind_elsewhere(&name, &Projection::DEF).is_none() && is_camera(value)
+        })
 }
 
 /// What is said of a projection that is written as a kind of camera; `None`: the name is none.

@@ -107,6 +107,13 @@ pub(super) fn color_of_object(name: &str, value: Item<'_, '_>, def: &'static Str
     Some(format!("{}{material}", Fields(value.syntax()).name("material")))
 }
 
+/// Whether the scene has a material of this name. Values are read before materials are.
+fn is_name_of_material(item: Item<'_, '_>, name: &str) -> bool {
+    let scene = item.other(0);
+    let materials = scene.and_then(|scene| scene.fields().find(|(key, _)| key.text() == "materials"));
+    materials.is_some_and(|(_, materials)| materials.fields().any(|(key, _)| key.text() == name))
+}
+
 impl Reader<'_> {
     /// Channels from 0 to 255, `(208, 58, 43)`, which are reported once.
     pub(super) fn bytes_as_color(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
@@ -246,6 +253,15 @@ impl Reader<'_> {
         if let Some((hex, _)) = css_colors::function(text.trim()) {
             fault.hint = format!("write \"{hex}\"");
             fault.edit = Some(Edit { span: item.span(), replacement: format!("\"{hex}\"") });
+            self.report(fault);
+            return None;
+        }
+        if is_value && is_name_of_material(item, &text) {
+            let name = item.lexeme();
+            fault.hint = format!(
+                "it is a material, whose name stands where it is due; one of several is taken by Pick(from: [{name}, \
+                 ..], index: 0)"
+            );
             self.report(fault);
             return None;
         }

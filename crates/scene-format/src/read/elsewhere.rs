@@ -2,6 +2,7 @@
 
 use super::Reader;
 use super::colors_elsewhere::{color_of_object, numbers_in_text};
+use super::kinds_elsewhere::two_of_a_pattern;
 use super::pattern_fields::is_mapping;
 use super::shape_fields::one_ring;
 use super::value::{hex_color, is_picture};
@@ -253,6 +254,7 @@ pub(super) fn field_elsewhere(
     };
     match name {
         _ if let Some(mended) = one_ring(name, value, def) => Some((None, mended)),
+        _ if let Some(mended) = two_of_a_pattern(name, value, def) => Some((None, mended)),
         "texture" | "map" | "map_kd" | "map_Kd" | "image" | "albedo_map" | "color_map" | "diffuse_texture"
             if def.field("albedo").is_some() && value.kind() == Kind::Text && is_picture(&value.text()) =>
         {
@@ -276,6 +278,10 @@ pub(super) fn field_elsewhere(
             number.then(|| (Some("scale"), format!("{}{}", name_of("scale"), value.lexeme())))
         }
         "diameter" => convert("radius", |d| d / 2.0),
+        "step" | "distance" | "pitch" | "interval" if def.name == "Grid" && value.number().is_some() => {
+            let spacing = vector(value, &[value.lexeme(); 3]);
+            Some((Some("spacing"), format!("{}{spacing}", name_of("spacing"))))
+        }
         "radians" if def.field("degrees").is_some() => {
             let degrees = degrees(value.number()?, value.lexeme());
             Some((Some("degrees"), format!("{}{degrees}", name_of("degrees"))))
@@ -376,9 +382,7 @@ impl Reader<'_> {
         };
         let albedo = match item.kind() {
             // Other programs mix materials.
-            Kind::Struct if item.name() == Some("Mix") && item.fields().any(|(key, _)| key.text() == "materials") => {
-                false
-            }
+            _ if self.mixes_materials(item) => false,
             Kind::Tuple | Kind::Struct if item.name().is_some_and(is_texture) => true,
             Kind::Tuple | Kind::List if item.name().is_none() => {
                 numbers(item).is_some_and(|numbers| numbers.len() == 3)
@@ -436,6 +440,23 @@ impl Reader<'_> {
         }
         self.report(fault);
         true
+    }
+}
+
+impl Reader<'_> {
+    /// Whether a mixture is one of materials, which only other programs mix.
+    fn mixes_materials(&self, item: Item<'_, '_>) -> bool {
+        let body = match item.kind() {
+            Kind::Map => item.fields().next().filter(|(key, _)| key.text() == "Mix").map(|(_, body)| body),
+            _ => Some(item).filter(|item| item.name() == Some("Mix")),
+        };
+        let is_material = |value: Item<'_, '_>| match value.kind() {
+            Kind::Text => self.knows_material(&value.text()) && !self.knows_texture(&value.text()),
+            Kind::Map => value.fields().next().is_some_and(|(key, _)| Material::DEF.variant(&key.text()).is_some()),
+            _ => value.name().is_some_and(|name| Material::DEF.variant(name).is_some()),
+        };
+        let of_materials = |(key, value): (Item<'_, '_>, Item<'_, '_>)| key.text() == "materials" || is_material(value);
+        body.is_some_and(|body| body.fields().take(8).any(of_materials))
     }
 }
 

@@ -156,8 +156,8 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Rotate", &["turn", "rotation", "spin", "rotateaxis", "angleaxis", "axisangle"]),
         ("Scale", &["scaling", "size", "stretch", "enlarge", "zoom"]),
         ("Panorama", &["spherical", "environment", "equirectangular", "latlong", "panoramic", "omnidirectional"]),
-        ("Perspective", &["thinlens", "pinhole", "persp"]),
-        ("Orthographic", &["ortho", "parallel", "telecentric", "isometric", "axonometric"]),
+        ("Perspective", &["pinhole", "persp", "perspectivecamera"]),
+        ("Orthographic", &["ortho", "parallel", "telecentric", "isometric", "axonometric", "orthographiccamera"]),
         ("Group", &["node", "collection", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
@@ -248,6 +248,10 @@ const TEXTURES: Hints = &[
          stops: [..])",
     ),
     (&["constant", "constanttexture", "solidcolor"], "one colour stands by itself: (0.8, 0.2, 0.1)"),
+    (
+        &["random", "rand", "whitenoise", "white_noise"],
+        "what differs from place to place is Noise(..), or a shade for each cell by Voronoi(feature: Cell)",
+    ),
     (&["volume"], "textures in space are Noise(..), Marble(..) and Wood(..)"),
     (&["hsv", "hsl", "hsla", "hsva"], "colours are red, green and blue: (0.8, 0.2, 0.1) or \"#d03a2b\""),
 ];
@@ -438,8 +442,17 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
             "how it is written is said on the command line: tracer render scene.ron -o picture.png, .exr, --bits 16"
         }
         "aspect" | "aspect_ratio" if def.name == "Image" => "both sides are written: `width: 640, height: 480`",
-        "gamma" | "bloom" | "glare" | "vignette" if def.name == "Scene" || def.name == "Effects" => {
-            "pictures are sRGB, and of the rest there are only the fields of `effects`: leave it out"
+        "gamma" if def.name == "Scene" || def.name == "Effects" => {
+            "pictures are sRGB: leave it out; how bright they are is the `exposure` of `effects`"
+        }
+        "bloom" | "glare" | "glow" if matches!(def.name, "Scene" | "Effects" | "Render") => {
+            "nothing glows beyond its edge here: leave it out; an EXR file keeps the brightness for another program"
+        }
+        "vignette" | "vignetting" if matches!(def.name, "Scene" | "Effects" | "Camera" | "Render") => {
+            "corners are as bright as the middle: leave it out"
+        }
+        "quality" | "preset" if has("max_bounces") => {
+            "how good it is is said by `samples: 256`, or by the noise that may be left: `noise: 0.02`"
         }
         "falloff" | "decay" | "attenuation" | "cast_shadows" | "castshadow" if has("radiance") => {
             "light falls off with the square of the distance, as it does: leave it out"
@@ -515,8 +528,9 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         "opacity" | "alpha" | "alpha_map" | "transparency" if def.name == "Transparent" => {
             "how much of the light passes each surface is its `transmittance`"
         }
-        "opacity" | "alpha" | "alpha_map" | "transparency" if surface => {
-            "what is seen through is Transparent(ior: 1.5)"
+        "opacity" | "alpha" | "alpha_map" | "transparency" | "alpha_test" | "alphatest" | "alpha_cutoff" if surface => {
+            "no picture cuts holes here: what is not there is left out of a mesh, or of the outline of an Extrude; \
+             what is seen through is Transparent(ior: 1.5)"
         }
         "resolution" | "size" | "film" if def.name == "Scene" => {
             "the size is `image: Image(width: 640, height: 480)`, or --size"
@@ -536,6 +550,9 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         | "no_reflection"
         | "cast_shadow"
         | "cast_shadows"
+        | "castshadow"
+        | "receiveshadow"
+        | "receive_shadow"
         | "visible_shadow"
         | "visible_diffuse"
         | "visible_glossy"

@@ -2,7 +2,8 @@
 
 use super::check::ROOT;
 use super::materials::Materials;
-use super::{MOST_ITEMS, Reader, shortened, textures, vars};
+use super::repeat::MOST_ITEMS;
+use super::{Reader, shortened, textures, vars};
 use crate::codes;
 use crate::desc::{IncludeWords, Light, MaterialRef, NamedMaterial, Object, Scene, group};
 use crate::diagnostic::{Diagnostic, Span, Spanned};

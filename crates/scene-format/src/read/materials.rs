@@ -1,6 +1,6 @@
 //! Materials by name, and who uses them.
 
-use super::{Reader, Step, make_room, shortened};
+use super::{Reader, Step, is_picture, make_room, shortened};
 use crate::codes;
 use crate::css_colors::named_color;
 use crate::desc::{Material, Metal, NamedMaterial};
@@ -310,6 +310,12 @@ impl Reader<'_> {
     }
 
     fn unknown_material(&mut self, name: &str, item: Item<'_, '_>) {
+        // That the value is none has been told where it stands.
+        if name.strip_prefix('=').is_some_and(|bare| self.uses_failed_var(bare.trim())) {
+            self.materials.unknown += 1;
+            self.sink.errors += 1;
+            return;
+        }
         let count = self.materials.read.len() + self.materials.unread.len();
         // Many names times many mistakes would take long: the first mistakes are the ones that are read.
         let few = count * (self.materials.unknown + 1) <= MAX_COMPARISONS;
@@ -331,7 +337,17 @@ impl Reader<'_> {
         };
         let nearest = suggest::nearest(name, known.iter().copied());
         fault.did_you_mean(nearest, |word| crate::print::text(word, item.syntax()));
-        if nearest.is_none() && self.knows_texture(name) {
+        if nearest.is_none() && is_picture(name) {
+            let replacement = match item.syntax() {
+                Syntax::Ron => format!("Diffuse(albedo: Texture(file: {}))", item.lexeme()),
+                syntax => {
+                    let texture = format!("{{ Texture = {{ file = {} }} }}", item.lexeme());
+                    syntax.of_toml(format!("{{ Diffuse = {{ albedo = {texture} }} }}")).into_owned()
+                }
+            };
+            fault.hint = format!("a picture is the texture of a material: {}", super::hinted(&replacement));
+            fault.edit = Some(Edit { span: item.span(), replacement });
+        } else if nearest.is_none() && self.knows_texture(name) {
             let replacement = match item.syntax() {
                 Syntax::Ron => format!("Diffuse(albedo: {})", item.lexeme()),
                 syntax => syntax.of_toml(format!("{{ Diffuse = {{ albedo = {} }} }}", item.lexeme())).into_owned(),
@@ -347,9 +363,13 @@ impl Reader<'_> {
                     fault.edit = Some(Edit { span: item.span(), replacement: mended });
                 }
                 false => {
-                    fault.hint = "names of materials are no expressions; one of several is taken by Pick(from: \
-                                  [\"white\", \"black\"], index: \"=i % 2\")"
-                        .to_owned();
+                    // Of those that there are.
+                    let two: Vec<String> = known.iter().take(2).map(|name| format!("\"{name}\"")).collect();
+                    let from = if two.len() == 2 { two.join(", ") } else { "..".to_owned() };
+                    fault.hint = format!(
+                        "names of materials are no expressions; one of several is taken by Pick(from: [{from}], index: \
+                         \"=i % 2\")"
+                    );
                 }
             }
         } else if nearest.is_none() {

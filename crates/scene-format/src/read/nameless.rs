@@ -1,6 +1,6 @@
 //! Values without names where fields stand, and what has no fields: what is to be written.
 
-use super::{Reader, field_list, field_words, hinted};
+use super::{Reader, field_list, field_words, hinted, shortened};
 use crate::codes;
 use crate::desc::{Material, Object, PlacementPattern, Scene, TransformWords};
 use crate::diagnostic::{Diagnostic, Edit, Span};
@@ -42,13 +42,26 @@ impl Reader<'_> {
                 "four numbers are a row, and there are three: `rows: ((1, 0, 0, x), (0, 1, 0, y), (0, 0, 1, z))`"
                     .to_owned();
             fault.edit = Some(Edit { span: first.span(), replacement: rows });
-        } else if let Some(mended) = named(&values, def) {
+        } else if let Some(mended) = named(&values, def).filter(|_| def.name != "Pick") {
             // With its kind, where that is on the same line.
             let kind = item.name().filter(|name| *name == def.name && values.len() == 1);
             fault.hint = match kind {
                 Some(kind) => format!("write `{}`", hinted(&format!("{kind}({mended})"))),
                 None => format!("write `{}`", hinted(&mended)),
             };
+            fault.edit = Some(Edit { span: whole, replacement: mended });
+        } else if def.name == "Pick" && values.len() == 1 {
+            let index = match self.indices.last() {
+                Some((index, _)) => format!("\"={index}\""),
+                None => "0".to_owned(),
+            };
+            fault.hint = format!("write `Pick(from: {}, index: {index})`", shortened(first.lexeme()));
+        } else if let ([only], Some(color)) = (def.fields, super::colors_elsewhere::color(first))
+            && only.kind.is_texture()
+            && values.len() == 1
+        {
+            let mended = format!("{}: {color}", only.name);
+            fault.hint = format!("write `{}({mended})`", def.name);
             fault.edit = Some(Edit { span: whole, replacement: mended });
         } else if let [only] = def.fields {
             let is_plain = matches!(first.kind(), Kind::Text | Kind::Integer | Kind::Float) && values.len() == 1;

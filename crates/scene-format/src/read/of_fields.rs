@@ -81,6 +81,23 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
         "area" | "region" | "bounds" | "domain" if has("min") && has("max") => {
             "the box is said by two corners opposite, `min: (-5, 0, -5), max: (5, 0, 5)`"
         }
+        "pivot" | "origin" | "anchor" if has("transform") => {
+            "what it turns about is said by the turn: `transform: [Rotate(axis: (0, 1, 0), degrees: 30, about: (0, 0, \
+             0))]`"
+        }
+        "perspectivecamera" | "orthographiccamera" if camera => {
+            "the camera's fields stand in `camera` itself, and what kind it is in its `projection`"
+        }
+        "size" | "extent" if def.name == "Grid" => {
+            "how far apart its copies are is its `spacing`, along x, y and z: (2, 1, 2)"
+        }
+        "direction" | "target" | "look_at" | "angle" | "cone_angle" if def.name == "SphereLight" => {
+            "it shines to all sides; one that shines to one side is an object: Rectangle(size: 1, normal: (0, -1, 0), \
+             material: Emissive(radiance: 5))"
+        }
+        "specular" | "shininess" | "phong" | "gloss" | "specular_color" if def.name == "Diffuse" => {
+            "a surface with a gloss is BlinnPhong(albedo: 0.5, exponent: 1000, specular: 0.1, energy_conserving: true)"
+        }
         "parent" if has("material") => "what is moved together stands in a `Group(objects: [..], transform: [..])`",
         "engine" | "renderer" | "integrator_type" if def.name == "Scene" => {
             "how light is followed is `render: Render(integrator: Full)`, which it is without the word, or Path"

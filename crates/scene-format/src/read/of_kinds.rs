@@ -13,7 +13,7 @@ pub(super) const OBJECTS: Hints = &[
          2)",
     ),
     (
-        &["pyramid", "tetrahedron", "loft"],
+        &["pyramid", "tetrahedron", "octahedron", "icosahedron", "dodecahedron", "polyhedron", "icosphere", "loft"],
         "its corners and faces may stand in the scene: Mesh(points: [(0, 1, 0), (-1, 0, -1), (1, 0, -1), (1, 0, 1), \
          (-1, 0, 1)], faces: [[0, 4, 3], [0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 3, 4]]), or in a file, \
          OBJ, OFF, PLY, STL, glTF or GLB: Mesh(file: \"a.obj\")",
@@ -65,6 +65,21 @@ pub(super) const OBJECTS: Hints = &[
         "a wall is a Box(size: (4, 3, 0.1)), or a Rectangle(size: (4, 3), normal: (0, 0, 1)) without thickness; a Box \
          seen from inside is a room",
     ),
+    (
+        &["foreach", "map", "each"],
+        "for each item of a list: vars: { \"list\": [1, 3, 5] } and Repeat(count: \"=len(list)\", items: [..]), where \
+         \"=list[i]\" is the item",
+    ),
+    (
+        &["star", "gear", "cog", "cogwheel", "sprocket"],
+        "its outline is a rule: Extrude(outline: [[Repeat(count: 10, items: [\"=if(i % 2 == 0, 1, 0.4)*(cos(36*i), \
+         sin(36*i))\"])]], depth: 0.2)",
+    ),
+    (
+        &["heart", "moon", "crescent", "leaf", "cross", "arch", "logo"],
+        "an outline of points has a depth, and may be curved: Extrude(outline: [[(0, -1), (1, 0.2), (0.5, 0.8), (0, \
+         0.4), (-0.5, 0.8), (-1, 0.2)]], depth: 0.2, curve: CatmullRom)",
+    ),
     (&["bevel", "roundedbox", "roundbox", "chamfer"], "edges are rounded by `Box(size: 1, rounding: 0.1)`"),
     (&["empty", "null"], "what only holds others is a `Group(objects: [..])`; a point needs no object"),
     (&["line", "lines", "segment", "polyline"], "a line has a thickness: `Tube(points: [..], radius: 0.02)`"),
@@ -80,6 +95,12 @@ pub(super) const OBJECTS: Hints = &[
 
 /// Materials of other programs.
 pub(super) const MATERIALS: Hints = &[
+    (
+        &["fresnel", "fresnelmix", "layerweight"],
+        "glass, metal and gloss reflect more at grazing angles by themselves: BlinnPhong(albedo: 0.5, exponent: 1000, \
+         specular: 0.1, energy_conserving: true), say",
+    ),
+    (&["random", "noise"], "a pattern is the colour of a material: Diffuse(albedo: Noise())"),
     (&["water", "liquid", "wine", "sea"], "water is Transparent(ior: 1.33)"),
     (&["diamond", "gem", "crystal"], "a diamond is Transparent(ior: 2.42)"),
     (&["ice"], "ice is Transparent(ior: 1.31)"),
@@ -101,7 +122,10 @@ pub(super) const MATERIALS: Hints = &[
             "coat",
             "coateddiffuse",
             "clearcoat",
+            "carpaint",
+            "metallicpaint",
             "meshstandardmaterial",
+            "meshphysicalmaterial",
         ],
         "a coloured surface with a gloss is BlinnPhong(albedo: .., exponent: 1000, specular: 0.1, energy_conserving: \
          true)",
@@ -400,6 +424,11 @@ const BACKGROUNDS: Hints = &[
     ),
 ];
 
+const PROJECTIONS: Hints = &[(
+    &["thinlens", "lens", "dof", "depthoffield", "realistic"],
+    "blur by depth is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`",
+)];
+
 const STEREO: Hints = &[
     (
         &["sidebyside", "sbs", "leftright", "horizontal", "parallel", "stereoscopic", "true", "on"],
@@ -421,6 +450,7 @@ pub(super) fn elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static st
         "background" => BACKGROUNDS,
         "tone map" => TONE_MAPS,
         "stereo" => STEREO,
+        "projection" => PROJECTIONS,
         _ => return None,
     };
     let found = rows.iter().find(|(names, _)| names.contains(&&*plain)).map(|(_, way)| *way);

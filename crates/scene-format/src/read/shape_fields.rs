@@ -104,6 +104,20 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
         ("twist" | "taper" | "scale_top", "Extrude") => {
             "the outline is the same all along: a `Mesh` takes other shapes"
         }
+        ("axis" | "direction" | "up" | "normal", "Lathe") => {
+            "it turns about the y axis; another one by `transform: [Align(to: (0, 0, 1))]`"
+        }
+        ("thickness" | "wall" | "wall_thickness" | "solidify", "Lathe") => {
+            "its wall is as thick as its section: a `profile` that goes up outside, and down again inside"
+        }
+        ("axis" | "direction" | "dir" | "normal" | "up", "Extrude") => {
+            "its outline lies in x and y, and it goes along z; another way by `transform: [Align(from: (0, 0, 1), to: \
+             (0, 1, 0))]`"
+        }
+        ("up" | "tangent" | "right", "Rectangle" | "Disk") => {
+            "which way it faces is its `normal`; within its plane it turns by `transform: [Rotate(axis: (0, 0, 1), \
+             degrees: 30)]`, about that axis"
+        }
         ("height" | "radius" | "width", "Lathe") => {
             "its size is that of its `profile`, whose points are (distance from the axis, height)"
         }

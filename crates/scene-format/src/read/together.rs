@@ -49,6 +49,20 @@ const POINTS: [&str; 2] = ["points: [(x, y, z), ..]", "points = [[x, y, z], ..]"
 const ROWS: &[Row] = &[
     ("Plane", &[&["y", "level", "elevation"]], &["point"], ["point: (0, y, 0)", "point = [0, y, 0]"], at_height),
     (
+        "Plane",
+        &[&["x"]],
+        &["point", "normal"],
+        ["point: (x, 0, 0), normal: (1, 0, 0)", "point = [x, 0, 0], normal = [1, 0, 0]"],
+        across_x,
+    ),
+    (
+        "Plane",
+        &[&["z"]],
+        &["point", "normal"],
+        ["point: (0, 0, z), normal: (0, 0, 1)", "point = [0, 0, z], normal = [0, 0, 1]"],
+        across_z,
+    ),
+    (
         "Box",
         &[MIN, MAX],
         &["center", "size"],
@@ -297,6 +311,22 @@ fn at_height(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
     let [y] = values else { return None };
     let y = y.number().map(|_| y.lexeme().to_owned())?;
     Some(format!("{}{}", Fields(syntax).name("point"), bracketed(&["0".to_owned(), y, "0".to_owned()], syntax)))
+}
+
+/// A plane where x is a number.
+fn across_x(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let x = values.first().and_then(|x| x.number().map(|_| x.lexeme()))?;
+    let write =
+        |field: &str, point: [&str; 3]| Fields(syntax).name(field) + &bracketed(&point.map(str::to_owned), syntax);
+    Some(format!("{}, {}", write("point", [x, "0", "0"]), write("normal", ["1", "0", "0"])))
+}
+
+/// A plane where z is a number.
+fn across_z(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let z = values.first().and_then(|z| z.number().map(|_| z.lexeme()))?;
+    let write =
+        |field: &str, point: [&str; 3]| Fields(syntax).name(field) + &bracketed(&point.map(str::to_owned), syntax);
+    Some(format!("{}, {}", write("point", ["0", "0", z]), write("normal", ["0", "0", "1"])))
 }
 
 /// Two corners.

@@ -340,7 +340,17 @@ fn step_as_field(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Op
     if def.field(name).is_some() || !synonyms(name, def).is_empty() || value.name().is_some() {
         return None;
     }
-    let three = || <[&str; 3]>::try_from(reckoned(value)?).ok();
+    // `{ "y": 45 }` says nothing of the others.
+    let by_axes = |other: &'static str| {
+        let mut three = [other; 3];
+        for (key, value) in value.fields().take(4) {
+            let at = ["x", "y", "z"].iter().position(|axis| key.text() == **axis)?;
+            three[at] = one(value)?;
+        }
+        value.fields().next().map(|_| three)
+    };
+    let other = if name.starts_with("scal") { "1" } else { "0" };
+    let three = || reckoned(value).and_then(|all| <[&str; 3]>::try_from(all).ok()).or_else(|| by_axes(other));
     match name {
         "scale" | "scaling" => {
             let factors = three().or_else(|| one(value).map(|factor| [factor; 3]))?;

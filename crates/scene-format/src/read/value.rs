@@ -199,11 +199,15 @@ impl Reader<'_> {
             if self.knows_var(trimmed) || item.kind() == Kind::Text && self.is_reckoned(trimmed) {
                 edit = Some(format!("\"={}\"", trimmed.trim_start_matches(['=', ' '])));
             }
+            if hex_color(trimmed).is_some() && at.kind.is_texture() {
+                let way = "it is one number for all colours: write 0.1, say".to_owned();
+                return self.number_in_text(item, at, way, None);
+            }
             if let Some((way, number)) = units::in_text(trimmed).filter(|_| edit.is_none()) {
                 return self.number_in_text(item, at, way, number);
             }
         } else if let Kind::Tuple | Kind::List = item.kind() {
-            if let Some(way) = of_three(item, at) {
+            if let Some(way) = of_counts(item, at).or_else(|| of_three(item, at)) {
                 let message = format!("{} cannot be {}", plain(at.noun), describe(item));
                 let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected_for(at, item));
                 self.report(fault.hint(way));
@@ -530,6 +534,18 @@ optional!(
     crate::desc::Metal,
     crate::desc::Albedo
 );
+
+/// What is said of more counts than one.
+fn of_counts(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    let counts = elsewhere::numbers(item).filter(|_| at.noun == "the count of a repetition")?;
+    let deep = counts.last().filter(|_| counts.len() > 1)?;
+    let grid = elsewhere::vector(item, &[counts[0], "1", deep]);
+    let grid = match item.syntax() {
+        Syntax::Ron => format!("Grid(count: {grid})"),
+        syntax => syntax.of_toml(format!("{{ Grid = {{ count = {grid} }} }}")).into_owned(),
+    };
+    Some(format!("it counts one way: a `Repeat` in its `items` makes rows, or the `placements` of one object: {grid}"))
+}
 
 /// What is said of three numbers where one stands: an ellipsoid's radii, indices of refraction by wavelengths.
 fn of_three(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {

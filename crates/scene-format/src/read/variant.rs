@@ -1,6 +1,7 @@
 //! Choices: `Name`, `Name(..)` in RON; `"Name"`, `{ Name = .. }` in TOML, and in JSON with `"Name": ..`.
 
 use super::hints::{kind_elsewhere, other_kind};
+use super::kinds_elsewhere::{needs, of_all_purposes};
 use super::{Fields, Reader, describe, plain};
 use crate::codes;
 use crate::desc::{Metal, Scene};
@@ -208,6 +209,10 @@ impl Reader<'_> {
                 }
             }
         }
+        if fault.hint.is_empty() && def.noun == "object" && item.kind() == Kind::Map && item.lexeme().starts_with('{') {
+            let way = item.syntax().of_toml("{ Sphere = { radius = 1 } }");
+            fault.hint = format!("an object is its kind with its fields: {way}");
+        }
         self.report(fault);
         None
     }
@@ -254,11 +259,16 @@ impl Reader<'_> {
             self.report(fault.hint(format!("what is said by its corners is a polygon: {way}")));
             return None;
         }
+        if let Some(way) = of_all_purposes(name, def, inner, syntax) {
+            self.report(fault.hint(format!("write {way}")));
+            return None;
+        }
         // The nearest kind of ours, with other fields than theirs: reading on would tell of every one of them.
         if let Some(variant) = elsewhere.and_then(|word| def.variant(word))
             && let Some(needs) = needs(variant, inner, syntax)
         {
-            let more = other_kind(name, def).map_or(String::new(), |way| format!("; {way}"));
+            let more = other_kind(name, def).filter(|_| !needs.starts_with("`BlinnPhong("));
+            let more = more.map_or(String::new(), |way| format!("; {way}"));
             self.report(fault.hint(format!("the nearest here is {needs}{more}")));
             return None;
         }
@@ -354,9 +364,13 @@ impl Reader<'_> {
                             item.head(),
                             format!("{} is one vector, with brackets of its own", plain(at.noun)),
                         )
-                        .expected(format!("{}((x, y, z))", chosen.variant.name))
-                        .hint(format!("write {}", super::hinted(&replacement)));
-                        fault.edit = Some(Edit { span: item.span(), replacement });
+                        .expected(format!("{}((x, y, z))", chosen.variant.name));
+                        if item.solid_children().count() == 3 {
+                            fault.hint = format!("write {}", super::hinted(&replacement));
+                            fault.edit = Some(Edit { span: item.span(), replacement });
+                        } else {
+                            fault.hint = format!("a vector has three numbers: {}((x, y, z))", chosen.variant.name);
+                        }
                         self.report(fault);
                         None
                     }
@@ -450,33 +464,6 @@ fn by_corners(inner: Item<'_, '_>) -> Option<String> {
 /// What a choice is a choice of kinds of: the noun `kind of noise` says it itself.
 pub(super) fn of_kind(def: &'static EnumDef) -> &'static str {
     def.noun.strip_prefix("kind of ").unwrap_or(def.noun)
-}
-
-/// How a variant is written, where what stands in brackets does not fit it.
-fn needs(variant: &'static VariantDef, inner: Option<Item<'_, '_>>, syntax: Syntax) -> Option<String> {
-    let (Content::Struct(fields), Some(inner)) = (&variant.content, inner) else { return None };
-    let written = |name: &str| inner.fields().any(|(key, _)| key.text() == name);
-    let known = inner.fields().all(|(key, _)| fields.field(&key.text()).is_some());
-    let all = fields.fields.iter().all(|field| field.default.is_some() || written(field.name));
-    let one = fields.exactly_one.is_empty() || fields.exactly_one.iter().any(|name| written(name));
-    if known && all && one {
-        return None;
-    }
-    let mut words: Vec<String> = fields
-        .fields
-        .iter()
-        .filter(|field| field.default.is_none())
-        .map(|field| format!("{}: ..", field.name))
-        .collect();
-    let of_file = fields.exactly_one.iter().find(|name| **name == "file");
-    words.extend(of_file.or(fields.exactly_one.last()).map(|name| format!("{name}: ..")));
-    Some(match syntax {
-        Syntax::Ron => format!("`{}({})`", variant.name, words.join(", ")),
-        syntax => {
-            let words = words.join(", ").replace(": ..", " = ..");
-            syntax.of_toml(format!("`{{ {} = {{ {words} }} }}`", variant.name)).into_owned()
-        }
-    })
 }
 
 /// Stands for the field of a value that is not in one.

@@ -4,7 +4,7 @@ use super::radians::in_radians;
 use super::seeds::as_range;
 use super::{Reader, Step, hinted, shortened};
 use crate::codes;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::expression::{self, List, MOST_LISTS, Named, Value};
 use crate::form::Form;
 use crate::schema::{FieldDef, Type};
@@ -307,7 +307,7 @@ impl Reader<'_> {
                 let is_vector =
                     item.kind() == Kind::Tuple || numbers.as_ref().is_some_and(|n| matches!(n.len(), 2 | 3));
                 if is_vector && !matches!(items.len(), 2 | 3) {
-                    self.wrong_count(item, &VAR, items.len(), 3);
+                    self.list_in_round_brackets(item, items.len());
                     return None;
                 }
                 let vector = numbers.filter(|_| is_vector).and_then(|numbers| Value::of(&numbers));
@@ -323,6 +323,32 @@ impl Reader<'_> {
             }
             _ => self.wrong_kind(item, "the value of a var", expected(), None),
         }
+    }
+
+    /// Reports more numbers than a vector has in the brackets of one: a list has its own.
+    fn list_in_round_brackets(&mut self, item: Item<'_, '_>, count: usize) {
+        if count < 4 || item.syntax() != crate::syntax::Syntax::Ron {
+            return self.wrong_count(item, &VAR, count, 3);
+        }
+        let message = format!("{count} values in round brackets are no vector");
+        let fault = Diagnostic::error(codes::WRONG_COUNT, item.head(), message);
+        let mut fault = fault.expected("a vector, (x, y, z), or a list in square brackets");
+        let inner = item.lexeme().trim_start_matches('(').trim_end_matches(')');
+        let replacement = format!("[{inner}]");
+        fault.hint = format!("write {}", hinted(&replacement));
+        if item.lexeme() == format!("({inner})") {
+            fault.edit = Some(Edit { span: item.span(), replacement });
+        }
+        self.report(fault);
+    }
+
+    /// Whether a name stands for a value that could not be read, which was told; then it is used.
+    pub(super) fn uses_failed_var(&mut self, name: &str) -> bool {
+        let var = self.vars.find(name).and_then(|k| self.vars.list.get_mut(k));
+        var.filter(|var| matches!(var.state, State::Failed)).is_some_and(|var| {
+            var.used = true;
+            true
+        })
     }
 
     /// Whether any name has a value.
@@ -377,7 +403,10 @@ impl Reader<'_> {
         };
         let span = within(item, &text, &fault.at);
         let mut diagnostic = Diagnostic::error(fault.code, span, fault.message).expected(fault.expected);
-        diagnostic.hint = fault.hint;
+        diagnostic.hint = match body.contains("random(") && body.contains(':') {
+            true => "its arguments are seeds: a number from 2 to 5 is mix(2, 5, random(i))".to_owned(),
+            false => fault.hint,
+        };
         self.report(diagnostic);
         Some(None)
     }

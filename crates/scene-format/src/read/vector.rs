@@ -105,6 +105,14 @@ impl Reader<'_> {
                 self.report(fault.expected(expected_for(at, item)).hint(way));
                 return None;
             }
+            if let Some(size) = item.number().filter(|_| at.noun == "the size of a height field") {
+                let message = format!("{} cannot be {}", plain(at.noun), describe(item));
+                let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message);
+                let way = elsewhere::vector(item, &[item.lexeme(), &format!("{}", size / 4.0), item.lexeme()]);
+                let way = format!("write {way}, say: along x, how high white is, along z");
+                self.report(fault.expected(expected_for(at, item)).hint(way));
+                return None;
+            }
             let edit = elsewhere::vector_elsewhere(item, at, N);
             return self.wrong_kind(item, at.noun, &expected_for(at, item), edit);
         }

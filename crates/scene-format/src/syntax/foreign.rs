@@ -183,6 +183,9 @@ fn language(text: &str, syntax: Syntax) -> Option<Diagnostic> {
         at += line.len();
     };
     let rest = &text[at + first.len()..];
+    if let Some(fault) = include_before(text, at, first).filter(|_| syntax == Syntax::Ron) {
+        return Some(fault);
+    }
     let (name, hint) = match syntax {
         Syntax::Ron if is_toml(first) => ("TOML", Some("name the file .toml, or give `--syntax toml`")),
         Syntax::Toml if is_ron(first) => ("RON", Some("name the file .ron, or give `--syntax ron`")),
@@ -199,6 +202,29 @@ fn language(text: &str, syntax: Syntax) -> Option<Diagnostic> {
             .expected("a scene in RON (.ron), TOML (.toml) or JSON (.json)")
             .hint(hint),
     )
+}
+
+/// `include: "lib.ron"` on a line before the scene, which has it as a field.
+fn include_before(text: &str, at: usize, first: &str) -> Option<Diagnostic> {
+    let word = ["include", "import"].into_iter().find(|word| first.starts_with(word))?;
+    let after = first[word.len()..].trim_start();
+    let value = after.strip_prefix([':', '=']).unwrap_or(after).trim().trim_end_matches([',', ';']).trim_end();
+    let list = match (value.starts_with('['), value.starts_with('"') && value.len() > 2 && value.ends_with('"')) {
+        (true, _) if value.ends_with(']') => value.to_owned(),
+        (false, true) => format!("[{value}]"),
+        _ => return None,
+    };
+    let end = at + first.len();
+    let gap = text[end..].len() - text[end..].trim_start().len();
+    let scene = "Scene(";
+    let begin = Some(end + gap).filter(|begin| text[*begin..].starts_with(scene))?;
+    let span = |start: usize, end: usize| Span { source: 0, start: start as u32, end: end as u32 };
+    let message = format!("`{word}` stands within `Scene(..)`, not before it");
+    let mut fault = Diagnostic::error(codes::MIXED_FIELDS, span(at, end), message).expected("Scene(..)");
+    let mended = format!("Scene(include: {list}, ");
+    fault.hint = format!("write `Scene(include: {list}, ..)`");
+    fault.edit = Some(Edit { span: span(at, begin + scene.len()), replacement: mended });
+    Some(fault)
 }
 
 /// `[camera]`, `[[objects]]` or `fov = 40`.

@@ -255,7 +255,11 @@ fn unfit(object: &Object) -> Option<(String, &'static str)> {
     Some(match object {
         Object::Box(cuboid) if cuboid.is_rounded() => {
             let message = "a box with round edges is made of triangles, and cannot be part of a solid";
-            (message.to_owned(), "leave `rounding` out, or let it stand beside the solid")
+            (
+                message.to_owned(),
+                "leave `rounding` out, or let it stand beside the solid; a die is Intersection(objects: [Box(size: 1), \
+                 Sphere(radius: 0.7)])",
+            )
         }
         Object::Sphere(_) | Object::Box(_) | Object::Capsule(_) | Object::Torus(_) | Object::Plane(_) => return None,
         Object::Cylinder(cylinder) if matches!(**cylinder, Cylinder { caps: true, .. }) => return None,
