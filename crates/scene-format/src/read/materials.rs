@@ -309,6 +309,7 @@ impl Reader<'_> {
         true
     }
 
+    // Long: one list of what is answered with, and in which order it is asked.
     fn unknown_material(&mut self, name: &str, item: Item<'_, '_>) {
         // That the value is none has been told where it stands.
         if name.strip_prefix('=').is_some_and(|bare| self.uses_failed_var(bare.trim())) {

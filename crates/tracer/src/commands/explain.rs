@@ -15,8 +15,9 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode, Failure> {
             }
             writeln!(
                 out,
-                "\n`tracer explain` with a code tells more; so it does with a word: `object` lists all shapes, `material` all\n\
-                 materials, `texture`, `light`, `transform`, `layer` and `projection` theirs, and `camera.fov` is one field."
+                "\n`tracer explain` with a code tells more; so it does with a word: `object` lists all shapes, \
+                 `material` all\nmaterials, `texture`, `light`, `transform`, `layer` and `projection` theirs, and \
+                 `camera.fov` is one field."
             )?;
         }
         words => {
