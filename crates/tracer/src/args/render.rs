@@ -43,7 +43,7 @@ pub struct RenderArgs {
     /// Bits per channel of a PNG: 8 or 16
     #[arg(long, value_name = "BITS", value_parser = bits)]
     pub bits: Option<Bits>,
-    /// Samples per pixel; beside --noise or --time the most, or as many as that takes
+    /// Samples per pixel; beside --noise or --time the most
     #[arg(short, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub samples: Option<u32>,
     /// End when the noise is no more than this: 0.01, 1%
