@@ -1207,7 +1207,7 @@ class Capsule(_CapsuleRequired, _CapsuleFields, total=False):
 
 
 class _LatheRequired(TypedDict):
-    profile: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    profile: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array, str]
 
 
 class Lathe(_LatheRequired, total=False):
@@ -1235,7 +1235,7 @@ class Lathe(_LatheRequired, total=False):
 Curve = Literal["Linear", "CatmullRom"]
 
 class _ExtrudeRequired(TypedDict):
-    outline: Either[Sequence[Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
+    outline: Either[Sequence[Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array, str, RepeatItem, PickItem]], Array, str]
     depth: Either[float, str, PickItem]
 
 
@@ -1261,7 +1261,7 @@ class Extrude(_ExtrudeRequired, total=False):
 
 
 class _TubeRequired(TypedDict):
-    points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array, str]
     radius: Either[float, str, Sequence[Either[float, str, RepeatItem, PickItem]], Array, PickItem]
 
 
@@ -1386,7 +1386,7 @@ class HeightField(_HeightFieldRequired, total=False):
 
 
 class _PolygonRequired(TypedDict):
-    points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array, str]
 
 
 class Polygon(_PolygonRequired, total=False):
@@ -1426,9 +1426,9 @@ class Mesh(TypedDict, total=False):
 
     file: File
     part: Any
-    points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
-    faces: Either[Sequence[Either[Sequence[Either[int, str, RepeatItem, PickItem]], Array, RepeatItem, PickItem]], Array]
-    colors: Either[Sequence[Either[float, Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array]
+    points: Either[Sequence[Either[Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array, str]
+    faces: Either[Sequence[Either[Sequence[Either[int, str, RepeatItem, PickItem]], Array, str, RepeatItem, PickItem]], Array, str]
+    colors: Either[Sequence[Either[float, Sequence[Either[float, str]], Array, str, RepeatItem, PickItem]], Array, str]
     material: Either[str, Material, PickItem]
     transform: Sequence[Either[Transform, RepeatItem, PickItem]]
     placements: Either[Sequence[Either[Sequence[Either[Transform, RepeatItem, PickItem]], RepeatItem, PickItem]], str, PlacementPattern, PickItem]

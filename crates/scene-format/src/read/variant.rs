@@ -279,7 +279,7 @@ impl Reader<'_> {
             && (elsewhere.is_some() || other_kind(name, def).is_none())
         {
             fault.hint = format!("write {}", written.0);
-            fault.edit = written.1.then(|| Edit { span, replacement: written.0 });
+            fault.edit = written.1.then_some(Edit { span, replacement: written.0 });
             self.report(fault);
             return None;
         }
