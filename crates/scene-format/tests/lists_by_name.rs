@@ -52,7 +52,7 @@ fn a_list_by_name_is_the_list() {
             format!("Polygon(points: {POINTS})"),
         ),
         (
-            format!("\"r\": 1, \"p\": [(\"=r\", 0), (0, \"=r\")]"),
+            "\"r\": 1, \"p\": [(\"=r\", 0), (0, \"=r\")]".to_owned(),
             "Repeat(count: 1, vars: { \"r\": 5 }, items: [Lathe(profile: \"=p\")])",
             "Lathe(profile: [(1, 0), (0, 1)])".to_owned(),
         ),
