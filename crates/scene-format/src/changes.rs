@@ -218,11 +218,11 @@ mod tests {
     #[test]
     fn changes_are_told_by_their_places_in_the_first_text() {
         assert_eq!(
-            told("ab\ncd ef", &[&[edit(4, 5, "xyz"), edit(0, 1, "")], &[edit(6, 8, "E")]]),
+            told("ab\ncd ef", &[&[edit(4, 5, "xyz"), edit(0, 1, "")], &[edit(7, 9, "E")]]),
             ["1:1 removed `a`", "2:2 `d` is now `xyz`", "2:4 `ef` is now `E`"]
         );
         // What is changed again is one change.
-        assert_eq!(told("one two", &[&[edit(0, 3, "three")], &[edit(2, 8, "!")]]), ["1:1 `one two` is now `th!o`"]);
+        assert_eq!(told("one two", &[&[edit(0, 3, "three")], &[edit(2, 8, "!")]]), ["1:1 `one tw` is now `th!`"]);
         assert_eq!(told("one", &[&[edit(3, 3, ",")]]), ["1:4 added `,`"]);
         assert_eq!(told("one", &[&[edit(0, 3, "two")], &[edit(0, 3, "one")]]), [""; 0]);
     }

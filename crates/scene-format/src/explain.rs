@@ -300,7 +300,7 @@ mod tests {
             ("spheres", "Sphere, a kind of Object"),
             ("keyframe", "keyframes(t, t0, value0"),
             ("depth of field", "ThinLens: A thin lens"),
-            ("Look-At", "`look_at`"),
+            ("Look-At", "look_at of Camera"),
             ("placement", "placements of Sphere"),
             ("spp", "`samples`"),
             ("bounce", "`max_bounces`"),
