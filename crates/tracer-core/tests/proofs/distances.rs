@@ -75,9 +75,9 @@ fn within_a_lamp_of_any_size_all_is_white() {
             let estimate = Estimate::of(&(1..=8).map(mean).collect::<Vec<_>>());
             let off = (estimate.mean - 1.0).abs();
             // Eight means: of seven freedoms each, 7 standard errors are passed by chance once in 600 runs. It was 1.5
-            // to 4 per cent.
+            // to 4 per cent. As a sky it has no noise at all: what is left are roundings of a hundred bounces.
             assert!(
-                estimate.error() < 1e-3 && off < 7.0 * estimate.error(),
+                estimate.error() < 1e-3 && off < 7.0 * estimate.error() + 1e-5,
                 "{radius}, {material}: {} +- {}",
                 estimate.mean,
                 estimate.error()
