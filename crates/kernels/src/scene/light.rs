@@ -211,9 +211,9 @@ pub struct LightTable {
     pub has_sky: bool,
     /// Number of spheres among them.
     pub spheres: u32,
-    /// Of the spheres: centre and radius, radiance, the bits of the primitive id of the light's sphere, and 1 where it
-    /// shines inwards, [`LightTable::SKY`] where it is a sky, else 0.
-    pub rows: Table<9>,
+    /// Of the spheres: centre and radius, radiance, the bits of the primitive id of the light's sphere, 1 where it
+    /// shines inwards, else 0, and 1 where it is a sky, else 0.
+    pub rows: Table<10>,
     /// The curved ones.
     pub curved: Arc<[CurvedRow]>,
     /// Number of spheres and curved ones.
@@ -287,8 +287,6 @@ impl LightTable {
     /// Nor, where there are few steps, a smaller one than this over their number: a lamp in a room, which a sun outside
     /// is a hundred times as bright as, has a sixteenth of the samples: the sun may shine in by a small window only.
     pub const LEAST_SHARE: f32 = 1.0 / 16.0;
-    /// What the row of a sky ends in.
-    pub const SKY: f32 = 2.0;
     /// Numbers of a node.
     pub const STRIDE: u32 = 12;
     /// Where a node holds what it is: see [`LightTable::tree`].
@@ -319,8 +317,8 @@ impl LightTable {
             let Light::Sphere { sphere, radiance, two_sided, is_sky } = *light else { return None };
             let s = spheres.get(sphere as usize)?;
             let ([x, y, z], [r, g, b]) = (s.center.as_vec3().to_array(), radiance.map(|x| x as f32));
-            let inside = if is_sky { Self::SKY } else { f32::from(u8::from(two_sided)) };
-            Some([x, y, z, s.radius as f32, r, g, b, f32::from_bits(sphere), inside])
+            let [inwards, sky] = [two_sided, is_sky].map(|is| f32::from(u8::from(is)));
+            Some([x, y, z, s.radius as f32, r, g, b, f32::from_bits(sphere), inwards, sky])
         });
         let flat = lights.iter().filter_map(|light| {
             let flat = light.flat()?;

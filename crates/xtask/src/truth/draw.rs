@@ -1,7 +1,7 @@
 //! What is drawn at random for scenes of every kind: colours, materials, textures, lamps, lenses, filters.
 
 use super::meshes::{Point, Shape};
-use super::textures::{albedo, number};
+use super::textures::{albedo, number, textured};
 use super::world::{World, diffuse, inline};
 use crate::picture::Picture;
 use glam::DVec3;
@@ -87,6 +87,17 @@ pub fn background(world: &mut World, random: &mut Random) -> Background {
     let camera_visible = !once_in(random, 3);
     let group = LightGroup::default();
     Background::Environment(Box::new(Environment { file, scale, rotation, up: up.into(), camera_visible, group }))
+}
+
+/// A sphere that shines around all there is: a lamp, or a ball that shines to both sides and may be painted.
+pub fn sky(world: &mut World, middle: Point, radius: f64, random: &mut Random) {
+    let radiance = [random.between(0.3, 1.0); 3];
+    if once_in(random, 2) {
+        return world.lamp(middle, radius, radiance);
+    }
+    let color = if once_in(random, 2) { textured(world, random) } else { color(random).into() };
+    let (amount, group) = (Amount::Radiance(radiance).into(), LightGroup::default());
+    world.sphere(middle, radius, Material::Emissive(Box::new(Emissive { color, amount, two_sided: true, group })));
 }
 
 /// Blinn-Phong with an exponent from dull to shiny: photons take over from 50 on, so both sides of that occur.

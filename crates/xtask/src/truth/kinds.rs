@@ -363,16 +363,17 @@ fn open_air(world: &mut World, random: &mut Random) {
     let casters = once_in(random, 2);
     things(world, room, 3, casters, random);
     let sunny = once_in(random, 2);
+    let away = if sunny && once_in(random, 2) { draw::magnitude(random, 1.0, 1e10) } else { 1.0 };
     if sunny {
         // A lamp above, or one that looks as large and is as far as a sun.
-        let away = if once_in(random, 2) { draw::magnitude(random, 1.0, 1e10) } else { 1.0 };
         let place = [random.between(-5.0, 5.0), random.between(5.0, 9.0), random.between(-3.0, 5.0)];
         world.lamp(place.map(|x| away * x), 0.5 * away, [random.between(50.0, 150.0); 3]);
     }
-    if !sunny && once_in(random, 3) {
-        // A sky that is a lamp about everything.
+    if once_in(random, 3) {
+        // A sky that is a lamp about everything, the sun, too.
         let middle = [0; 3].map(|_| random.between(-9.0, 9.0));
-        world.lamp(middle, draw::magnitude(random, 40.0, 1e9), [random.between(0.3, 1.0); 3]);
+        let radius = away * draw::magnitude(random, 40.0, if sunny { 400.0 } else { 1e9 });
+        draw::sky(world, middle, radius, random);
     } else if !sunny || once_in(random, 2) {
         world.desc.background = draw::background(world, random);
     }

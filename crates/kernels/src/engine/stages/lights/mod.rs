@@ -177,8 +177,8 @@ pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>, hit: &LightH
     }
     let mut near = selection::probability(lights, k, at) / inverse;
     if lights.has_sky {
-        let [.., inwards] = lights.rows.row::<F>(k);
-        let is_sky = k.lt(F::U::splat(lights.spheres)) & F::splat(LightTable::SKY).le(inwards);
+        let [.., sky] = lights.rows.row::<F>(k);
+        let is_sky = k.lt(F::U::splat(lights.spheres)) & F::splat(0.0).lt(sky);
         near = F::select(is_sky, F::splat(0.0), near);
     }
     if lights.environment.is_some() { near * F::splat(1.0 - selection::ENVIRONMENT) } else { near }
@@ -187,7 +187,7 @@ pub fn pdf<F: Lanes>(lights: &LightTable, k: F::U, at: Receiver<F>, hit: &LightH
 /// Radiance of light `k` to where it was met from.
 #[inline(always)]
 pub fn radiance<F: Lanes>(lights: &LightTable, k: F::U, hit: &LightHit<F>) -> V3<F> {
-    let [.., red, green, blue, _, inwards] = lights.rows.row::<F>(k);
+    let [.., red, green, blue, _, inwards, _] = lights.rows.row::<F>(k);
     let shines = hit.front | F::splat(0.0).lt(inwards);
     let mut radiance = V3::select(shines, V3(red, green, blue), V3::zero());
     if lights.has_curved() {

@@ -22,7 +22,7 @@ fn one_minus_cos<F: Lanes>(d2: F, r2: F) -> F {
 #[inline(always)]
 pub fn sample<F: Lanes>(lights: &LightTable, k: F::U, p: V3<F>, u: F, v: F) -> LightSample<F> {
     let c = F::splat;
-    let [x, y, z, radius, red, green, blue, primitive, inwards] = lights.rows.row::<F>(k);
+    let [x, y, z, radius, red, green, blue, primitive, inwards, _] = lights.rows.row::<F>(k);
     let to_center = V3(x, y, z).sub(p);
     let d2 = to_center.dot(to_center);
     let r2 = radius * radius;
