@@ -315,8 +315,8 @@ impl Work {
 
 /// How well another pixel knows the irradiance of this one, beside how well this one does, at most one: its noise is
 /// that of radiance over its albedo, which of black is anything. By the channel that it knows least of: weights are of
-/// pixels. Without it what is black made mixed pixels at its border darker, which took up to 4 % from a picture of white
-/// dots on black.
+/// pixels. Without it what is black made mixed pixels at its border darker, which took up to 4 % from a picture of
+/// white dots on black.
 #[inline(always)]
 fn known(albedo: &[[Row; 2]; 3], x: usize) -> f32 {
     let ratio = |[here, other]: &[Row; 2]| other[x] / here[x].max(DARK);

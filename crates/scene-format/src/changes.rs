@@ -1,7 +1,7 @@
 //! What edits made of a text, told change by change.
 
 use crate::diagnostic::Edit;
-use crate::render::{apply_edits, in_order};
+use crate::render::in_order;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -100,13 +100,15 @@ pub(crate) struct Changes {
 impl Changes {
     /// Makes edits of the text as it is now; gives the new one.
     pub fn apply(&mut self, text: &str, edits: &[Edit]) -> String {
+        let mut now = text.to_owned();
         // From the last to the first, so that the others are still where they say.
         for (bytes, replacement) in in_order(text, edits).into_iter().rev() {
-            if text[bytes.clone()] != *replacement {
-                self.replace(text, bytes, replacement);
+            if now[bytes.clone()] != *replacement {
+                self.replace(&now, bytes.clone(), replacement);
+                now.replace_range(bytes, replacement);
             }
         }
-        apply_edits(text, edits)
+        now
     }
 
     /// Puts a text in place of these bytes of the present one, in which no edit before them was made yet.

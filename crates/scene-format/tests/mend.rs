@@ -246,3 +246,20 @@ fn what_goes_along_an_axis_keeps_it() {
         assert_eq!(errors(&mended.text, Syntax::Ron), 0, "{}", mended.text);
     }
 }
+
+/// What `changes` tell: each made of the text as it is after those before.
+#[test]
+fn changes_in_one_another_are_told_and_made() {
+    let scenes = [
+        (Syntax::Ron, "Scene{backgrond: 1, objects: [Spere{radius: 1}]}"),
+        (
+            Syntax::Json,
+            r#"{"Scene": {"backgrond": 1, "objects": [{"sphere": {"Radius": 1, "color": "red"}}, {"box": {"Size": "2"}}]}}"#,
+        ),
+    ];
+    for (syntax, text) in scenes {
+        assert_eq!(fault(text, syntax), None, "{text}");
+        let mended = mend("scene", text, syntax, Path::new(""));
+        assert!(mended.text != text && !mended.changes.is_empty(), "{}", mended.text);
+    }
+}
