@@ -254,7 +254,8 @@ fn changes_in_one_another_are_told_and_made() {
         (Syntax::Ron, "Scene{backgrond: 1, objects: [Spere{radius: 1}]}"),
         (
             Syntax::Json,
-            r#"{"Scene": {"backgrond": 1, "objects": [{"sphere": {"Radius": 1, "color": "red"}}, {"box": {"Size": "2"}}]}}"#,
+            r#"{"Scene": {"backgrond": 1, "objects": [{"sphere": {"Radius": 1, "color": "red"}},
+                {"box": {"Size": "2"}}]}}"#,
         ),
     ];
     for (syntax, text) in scenes {
