@@ -46,9 +46,7 @@ impl Prepared {
         let number = |x: f32| if x.is_nan() { 0.0 } else { (x / scale).clamp(-MOST, MOST) };
         let feature = |x: f32| if x.is_finite() { x } else { 0.0 };
         let tint = [0, 1, 2].map(|c| plane(&|k| feature(input.albedo[3 * k + c]).clamp(0.0, 1.0)));
-        // What is black is so by its texture; what is behind everything has none.
-        let is_hit = |k: usize| input.depth[k] < f32::INFINITY;
-        let albedo = [0, 1, 2].map(|c| plane(&|k| if is_hit(k) { tint[c].values[k].max(DARK) } else { 1.0 }));
+        let albedo = [0, 1, 2].map(|c| plane(&|k| tint[c].values[k].max(DARK)));
         let lamps = [0, 1, 2].map(|c| plane(&|k| number(input.lamps[3 * k + c])));
         let halves =
             input.halves.map(|half| [0, 1, 2].map(|c| plane(&|k| number(half[3 * k + c]) / albedo[c].values[k])));

@@ -89,6 +89,9 @@ fn kept(text: &str) -> f64 {
         before += pixels(&film).map(|(x, y)| film.radiance(x, y)[0] - behind((x, y))).sum::<f64>();
         let denoised = denoise(&film).expect("there is all it needs");
         after += denoised.radiance.chunks(3).map(|pixel| f64::from(pixel[0])).sum::<f64>();
+        // What is not there is not lit.
+        let mut shown = pixels(&film).zip(denoised.radiance.chunks(3));
+        assert!(shown.all(|((x, y), pixel)| film.alpha(x, y) > 0.0 || pixel[0] < 1e-3), "seed {seed}");
     }
     after / before
 }

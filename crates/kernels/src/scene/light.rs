@@ -464,8 +464,8 @@ impl Facing {
 }
 
 /// Builds the tree: halves by number along the widest axis of the centres, so that no way is much longer than log2 of
-/// their number. A light that all others stand in, a sky, is split off before them: it would make any group that it is
-/// of as wide and as strong as itself.
+/// their number. A light that all others stand in is split off before them: it would make any group that it is of as
+/// wide and as strong as itself.
 struct Builder<'a> {
     emitters: &'a [Emitter],
     tree: Vec<f32>,
@@ -508,7 +508,8 @@ impl Builder<'_> {
             // The index decides between equal places, so that the tree depends on nothing else.
             lights.sort_unstable_by(|&a, &b| of(a).center[axis].total_cmp(&of(b).center[axis]).then(a.cmp(&b)));
             let mut middle = lights.len() / 2;
-            if let Some(around) = self.around_all(lights).filter(|_| lights.len() > 2 && depth < MOST_AROUND) {
+            let may_be_split = lights.len() > 2 && depth < MOST_AROUND;
+            if let Some(around) = may_be_split.then(|| self.around_all(lights)).flatten() {
                 lights[..=around].rotate_right(1);
                 middle = 1;
             }

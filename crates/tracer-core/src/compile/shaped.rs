@@ -128,15 +128,20 @@ fn is_seen(desc: &SceneDesc, object: u32) -> bool {
     }
 }
 
-/// Whether all rays of the camera start in a sphere, by a hundredth of its radius.
+/// Whether all rays of the camera start in a sphere, by a hundredth of its radius; but those that a filter takes from
+/// beyond the picture's border. It is about noise alone: a lamp that is never asked is found by rays that meet it.
 fn holds(sphere: &Sphere, camera: &Camera) -> bool {
+    let half = camera.right.length() + camera.up.length();
     let reach = match camera.projection {
-        Projection::Perspective { lens, .. } => lens.map_or(0.0, |lens| lens.radius),
-        Projection::Orthographic => camera.right.length() + camera.up.length(),
-        Projection::Panorama | Projection::Fisheye { .. } => 0.0,
+        Projection::Perspective { lens, shift: [x, y] } => {
+            let corner = 1.0 + camera.right.length() * (1.0 + x.abs()) + camera.up.length() * (1.0 + y.abs());
+            lens.map_or(0.0, |lens| lens.radius) + camera.near * corner
+        }
+        Projection::Orthographic => half + camera.near,
+        Projection::Panorama | Projection::Fisheye { .. } => camera.near,
     };
     let aside = camera.stereo.map_or(0.0, |stereo| stereo.aside.abs());
-    camera.near == 0.0 && camera.eye.distance(sphere.center) + reach + aside < 0.99 * sphere.radius
+    camera.eye.distance(sphere.center) + reach + aside < 0.99 * sphere.radius
 }
 
 /// Adds objects that are made of several to the shapes, and their parts that shine to the lights; gives what they are

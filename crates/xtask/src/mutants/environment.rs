@@ -65,6 +65,13 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["sky::a_sky_of_one_colour_is_a_background"]),
     },
     Mutant {
+        name: "a-lamp-around-all-takes-the-photons",
+        file: "crates/kernels/src/engine/guide/plan.rs",
+        find: "distance.max(radius).max(caster.radius)",
+        replace: "distance.max(caster.radius)",
+        caught_by: proofs(&["sky::a_lamp_around_all_leaves_photons_to_the_others"]),
+    },
+    Mutant {
         name: "lamps-within-a-lamp-are-starved",
         file: SELECTION,
         find: "to.dot(to).max(F::select(is_sphere, r2, zero))",

@@ -95,8 +95,8 @@ pub struct Plan {
     pub casters: Casters,
     /// The curved lights.
     pub curved: Arc<[CurvedRow]>,
-    /// What all lights send towards the middle of the scene: flux, the sum of the channels, and of lights farther than
-    /// a unit over their squared distance.
+    /// What all lights send towards the middle of the scene: flux, the sum of the channels, over the squared distance
+    /// in units, which counts as one at least, and as the light's radius.
     pub sent: f32,
     /// How many photons all casters are worth, of those of mirrors in their place.
     worth: f64,
@@ -125,9 +125,9 @@ impl Plan {
                     radiance * faces * light.area(&scene.spheres) / (4.0 * pi)
                 }
             };
-            // As much is sent to the middle of the scene from one unit away; what is nearer counts as that.
-            let (center, _) = light.bounds(&scene.spheres);
-            all += power * 4.0 * pi * pi / center.length_squared().max(1.0);
+            // What is nearer than one unit, or within the light, counts as that far from it.
+            let (center, radius) = light.bounds(&scene.spheres);
+            all += power * 4.0 * pi * pi / center.length_squared().max(radius * radius).max(1.0);
             for (c, caster) in casters.list.iter().enumerate() {
                 let mut pair = Pair::new(scene, light, caster);
                 pair.weight *= power;
@@ -215,7 +215,8 @@ impl Pair {
                 (if apart { aim::OUTSIDE } else { aim::EVERYWHERE }, 2.0)
             }
         };
-        let sine = (caster.radius / distance.max(caster.radius)).min(1.0);
+        // What lies within a light, or close to a flat one, gets no more than what is as far from its middle as its rim.
+        let sine = (caster.radius / distance.max(radius).max(caster.radius)).min(1.0);
         let sin2 = sine * sine;
         let cone = sin2 / (1.0 + (1.0 - sin2).sqrt());
         // From a light with one side nothing goes where its back is seen.
