@@ -25,8 +25,7 @@ const PEAK: f32 = 16.0;
 pub struct Chosen {
     /// Irradiance of both halves.
     pub halves: [Colours; 2],
-    /// Estimated squared errors of radiance, of the noisy picture and of what was chosen; summed over the channels.
-    pub before: Plane,
+    /// Estimated squared error of radiance, summed over the channels.
     pub after: Plane,
     /// Estimated variance of what was chosen, which its squared error is not below.
     pub variance: Plane,
@@ -37,7 +36,7 @@ impl Chosen {
     pub fn nothing(prepared: &Prepared) -> Self {
         let halves = prepared.halves.clone();
         let before = error(prepared, |half, c, k| halves[half][c].values[k]);
-        Chosen { after: before.clone(), variance: before.clone(), before, halves }
+        Chosen { after: before.clone(), variance: before, halves }
     }
 }
 
@@ -45,13 +44,13 @@ impl Chosen {
 /// half F and the noisy other one O differ by F's error and O's variance, and the mean of two filtered halves has
 /// less variance than each. With a and b the shares of the halves, D and E the squared differences of the noisy and
 /// of the filtered halves, that is a (F_1 - O_2)^2 + b (F_2 - O_1)^2 - (a^2 + b^2) D - a b E; the noisy picture's is
-/// a b D.
+/// a b D. Zero where the halves are not apart.
 fn error(prepared: &Prepared, irradiance: impl Fn(usize, usize, usize) -> f32 + Sync) -> Plane {
     let a = prepared.share;
     let b = 1.0 - a;
     Plane::of(prepared.width, prepared.height, |k| {
         let of_channel = |c: usize| {
-            let albedo = prepared.albedo[c].values[k];
+            let albedo = if prepared.apart[k] { prepared.albedo[c].values[k] } else { 0.0 };
             let noisy = [0, 1].map(|half| prepared.halves[half][c].values[k]);
             let filtered = [0, 1].map(|half| irradiance(half, c, k));
             let square = |x: f32, y: f32| (x - y) * (x - y);
@@ -110,7 +109,7 @@ pub fn choose(prepared: &Prepared, last: &Chosen, filtered: &Filtered) -> Chosen
     let halves = with_peaks(prepared, blended);
     let after = error(prepared, |half, c, k| halves[half][c].values[k]);
     let variance = variance(prepared, &halves);
-    Chosen { halves, before: last.before.clone(), after, variance }
+    Chosen { halves, after, variance }
 }
 
 /// Halves that were filtered, but as they were where both say that the filter has taken too much: a lamp in a mirror,
@@ -125,7 +124,7 @@ fn with_peaks(prepared: &Prepared, blended: [Colours; 2]) -> [Colours; 2] {
             product += (one - blended[1][c].values[k]) * (other - blended[0][c].values[k]);
             difference += (one - other) * (one - other);
         }
-        product > PEAK * prepared.variance.values[k].max(0.5 * difference)
+        prepared.apart[k] && product > PEAK * prepared.variance.values[k].max(0.5 * difference)
     };
     [0, 1].map(|half| {
         [0, 1, 2].map(|c| {

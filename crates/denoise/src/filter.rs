@@ -54,8 +54,8 @@ struct Field {
     near: Padded,
     slope: [Padded; 2],
     tint: [Padded; 3],
-    /// What irradiance was divided by.
-    albedo: [Padded; 3],
+    /// What either half was divided by.
+    divisors: [[Padded; 3]; 2],
 }
 
 /// Sums of a row of a tile: the upper half of a symmetric matrix, and three right hand sides.
@@ -84,7 +84,7 @@ pub fn filter(
         near: padded(&prepared.near),
         slope: prepared.slope.each_ref().map(padded),
         tint: prepared.tint.each_ref().map(padded),
-        albedo: prepared.albedo.each_ref().map(padded),
+        divisors: prepared.divisors.each_ref().map(|half| half.each_ref().map(padded)),
     };
     let (width, pixels) = (field.width, field.width * field.height);
     let empty = || [0, 1].map(|_| vec![[0.0; 3]; pixels]);
@@ -134,6 +134,8 @@ struct Work {
     /// Sums of one row: they stay in the nearest cache.
     sums: Box<Sums>,
     features: [Row; ROWS],
+    /// How well other pixels of either half know the irradiance of these, squared.
+    known: [[Row; ROWS]; 2],
     distances: [[f32; SPAN]; SPAN_ROWS],
     across: [Row; SPAN_ROWS],
 }
@@ -145,6 +147,7 @@ impl Work {
             weights: [Vec::new(), Vec::new()],
             sums: Box::new(Sums { moments: [[0.0; TILE]; MOMENTS], right: [[[0.0; TILE]; 3]; UNKNOWNS] }),
             features: [[0.0; TILE]; ROWS],
+            known: [[[0.0; TILE]; ROWS]; 2],
             distances: [[0.0; SPAN]; SPAN_ROWS],
             across: [[0.0; TILE]; SPAN_ROWS],
         }
@@ -165,22 +168,22 @@ impl Work {
                 for half in 0..2 {
                     // Its weights come from the other half: so that no error makes its own weight.
                     self.compare_patches(field, &field.halves[1 - half], left, top, offset);
-                    let weights = std::array::from_fn(|row| self.weights_of(row));
+                    let weights = std::array::from_fn(|row| self.weights_of(row, half));
                     self.weights[half].push(weights);
                 }
             }
         }
     }
 
-    /// Weights of a row, by features and patches.
-    fn weights_of(&self, row: usize) -> Row {
+    /// Weights of a row of a half, by features and patches.
+    fn weights_of(&self, row: usize, half: usize) -> Row {
         const SHARE: f32 = 1.0 / ((2 * PATCH + 1) * (2 * PATCH + 1)) as f32;
         let mut weights: Row = [0.0; TILE];
         for patch in &self.across[row..=row + 2 * PATCH] {
             weights.iter_mut().zip(patch).for_each(|(to, distance)| *to += distance);
         }
-        for (to, alike) in weights.iter_mut().zip(&self.features[row]) {
-            *to = weight((*to * SHARE).max(0.0)) * alike;
+        for (to, (alike, known)) in weights.iter_mut().zip(self.features[row].iter().zip(&self.known[half][row])) {
+            *to = weight((*to * SHARE).max(0.0)) * alike * known;
         }
         weights
     }
@@ -200,7 +203,10 @@ impl Work {
             let other = field.near.place(left as isize + across, y + down);
             let rows = |planes: &[Padded; 3]| planes.each_ref().map(|plane| [*plane.row(here), *plane.row(other)]);
             let (normal, tint): ([[Row; 2]; 3], [[Row; 2]; 3]) = (rows(&field.normal), rows(&field.tint));
-            let albedo: [[Row; 2]; 3] = rows(&field.albedo);
+            let divisors: [[[Row; 2]; 3]; 2] = field.divisors.each_ref().map(rows);
+            for (known, divisors) in self.known.iter_mut().zip(&divisors) {
+                known[row] = std::array::from_fn(|x| squared(known_of(divisors, x)));
+            }
             let (near, near_other): (&Row, &Row) = (field.near.row(here), field.near.row(other));
             let [right, below]: [&Row; 2] = field.slope.each_ref().map(|slope| slope.row(here));
             for x in 0..TILE {
@@ -210,8 +216,7 @@ impl Work {
                 let of_tint = (square(&tint[0]) + square(&tint[1]) + square(&tint[2])) * (1.0 / ALBEDO / ALBEDO);
                 let from_flat = near_other[x] - near[x] - (right[x] * fx + below[x] * fy);
                 let unit = NEAR * near[x] + 0.5 * (right[x].abs() + below[x].abs()) + LEAST;
-                let known = known(&albedo, x);
-                weights[x] = weight(of_normal + of_tint + from_flat * from_flat / (unit * unit)) * known * known;
+                weights[x] = weight(of_normal + of_tint + from_flat * from_flat / (unit * unit));
             }
             for (x, weight) in weights.iter_mut().enumerate() {
                 let x = (left + x) as isize + across;
@@ -318,9 +323,13 @@ impl Work {
 /// pixels. Without it what is black made mixed pixels at its border darker, which took up to 4 % from a picture of
 /// white dots on black.
 #[inline(always)]
-fn known(albedo: &[[Row; 2]; 3], x: usize) -> f32 {
+fn known_of(divisors: &[[Row; 2]; 3], x: usize) -> f32 {
     let ratio = |[here, other]: &[Row; 2]| other[x] / here[x].max(DARK);
-    ratio(&albedo[0]).min(ratio(&albedo[1])).min(ratio(&albedo[2])).min(1.0)
+    ratio(&divisors[0]).min(ratio(&divisors[1])).min(ratio(&divisors[2])).min(1.0)
+}
+
+fn squared(x: f32) -> f32 {
+    x * x
 }
 
 /// Nearly exp(-d), but with an end.

@@ -18,9 +18,9 @@ pub struct Input<'a> {
     /// What is seen of lamps themselves, linear RGB, in the halves' unit, as a mean over all their samples. There is no
     /// noise of light in it, so it is left as it is.
     pub lamps: &'a [f32],
-    /// Colour without light, textures included, in 0..=1; one where nothing is hit, as what is behind everything has no
-    /// texture, and zero where that is not part of the picture.
-    pub albedo: &'a [f32],
+    /// Colour without light, textures included, in 0..=1, as either half has met it; one where nothing is hit, as what is
+    /// behind everything has no texture, and zero where that is not part of the picture.
+    pub albedo: [&'a [f32]; 2],
     /// Shading normal; shorter than one where samples differ, zero where nothing is hit.
     pub normal: &'a [f32],
     /// Distance along the view axis, above zero; infinite where nothing is hit.
@@ -49,7 +49,8 @@ impl Input<'_> {
     pub(crate) fn check(&self) -> Result<(), WrongSize> {
         let pixels = self.width.checked_mul(self.height).filter(|&pixels| pixels <= usize::MAX / 64);
         let pixels = pixels.ok_or(WrongSize("size"))?;
-        let three = [self.halves[0], self.halves[1], self.lamps, self.albedo, self.normal];
+        let [one, other] = self.halves;
+        let three = [one, other, self.lamps, self.albedo[0], self.albedo[1], self.normal];
         let right = three.iter().all(|picture| picture.len() == 3 * pixels)
             && self.depth.len() == pixels
             && self.variance.len() == pixels;

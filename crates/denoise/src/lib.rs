@@ -99,7 +99,7 @@ pub struct Told {
 ///     halves: [&half(0), &half(1)],
 ///     share: 0.5,
 ///     lamps: &vec![0.0; 3 * pixels],
-///     albedo: &one,
+///     albedo: [&one, &one],
 ///     normal: &[0.0, 0.0, 1.0].repeat(pixels),
 ///     depth: &vec![2.0; pixels],
 ///     variance: &vec![1e-5; pixels],
@@ -157,11 +157,19 @@ pub fn denoise_while(input: &Input<'_>, goes_on: &(dyn Fn() -> bool + Sync)) -> 
 
 /// What became of the picture: sums in `f64`, one after the other, so that threads cannot show.
 fn told(input: &Input<'_>, prepared: &Prepared, chosen: &Chosen, pixels: &[f32]) -> Told {
-    let (mut picture, mut change) = (0.0, 0.0);
+    let (mut picture, mut change, mut before, mut texture) = (0.0, 0.0, 0.0, 0.0);
+    let share = f64::from(input.share * (1.0 - input.share));
     for (k, &after) in pixels.iter().enumerate() {
-        let before = f64::from(input.mean(k));
-        picture += before * before;
-        change += (f64::from(after) - before) * (f64::from(after) - before);
+        let mean = f64::from(input.mean(k));
+        picture += mean * mean;
+        change += (f64::from(after) - mean) * (f64::from(after) - mean);
+        let [one, other] = input.halves.map(|half| f64::from(half[k]));
+        before += share * (one - other) * (one - other);
+        let [one, other] = input.albedo.map(|albedo| f64::from(albedo[k].clamp(0.0, 1.0)));
+        let [light, other_light] = chosen.halves.each_ref().map(|half| f64::from(half[k % 3].values[k / 3]));
+        let light = 0.5 * (light + other_light) * (one - other);
+        // Of what is no number nothing is known.
+        texture += if light.is_finite() { share * light * light } else { 0.0 };
     }
     if picture == 0.0 {
         return Told::default();
@@ -170,8 +178,7 @@ fn told(input: &Input<'_>, prepared: &Prepared, chosen: &Chosen, pixels: &[f32])
     let unit = f64::from(prepared.scale) * f64::from(prepared.scale);
     // The estimate of the squared error may come out too low by its own noise, below zero even; that of its variance
     // cannot.
-    let after = sum(&chosen.after).max(sum(&chosen.variance)) * unit;
-    let before = sum(&chosen.before) * unit;
+    let after = (sum(&chosen.after).max(sum(&chosen.variance)) + texture) * unit;
     let relative = |square: f64| (square.max(0.0) / picture).sqrt();
     Told { change: relative(change), error_before: relative(before), error_after: relative(after) }
 }

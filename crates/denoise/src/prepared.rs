@@ -2,13 +2,19 @@
 
 use crate::input::Input;
 use crate::plane::{Colours, Plane};
+use rayon::prelude::*;
 
 /// Albedos below are taken for this: what is nearly black is not made bright.
 pub const DARK: f32 = 0.002;
+/// Halves are divided by what each has met of a texture: what the one met more of it than the other is no noise of light.
+/// Where one of them has met less than this share of what both have, in any channel, it knows too little of light.
+const ENOUGH: f32 = 0.05;
 /// Radiance counts as this at most, in units of its mean: squares stay within single precision.
 const MOST: f32 = 1e12;
 /// The square over which the size of the noise is found.
 const WIDE: usize = 7;
+/// And the smaller one.
+const NEAR: usize = 2;
 /// How far away the noise of a pixel is looked for.
 pub const REACH: usize = WIDE + 1;
 
@@ -22,6 +28,11 @@ pub struct Prepared {
     pub scale: f32,
     /// What irradiance is multiplied by.
     pub albedo: Colours,
+    /// What either half was divided by to be irradiance.
+    pub divisors: [Colours; 2],
+    /// Of each pixel whether its halves know light by themselves; else both have the mean of both, which says nothing of
+    /// noise.
+    pub apart: Vec<bool>,
     /// What is added then.
     pub lamps: Colours,
     /// Irradiance of both halves.
@@ -45,18 +56,35 @@ impl Prepared {
         let scale = scale(input);
         let number = |x: f32| if x.is_nan() { 0.0 } else { (x / scale).clamp(-MOST, MOST) };
         let feature = |x: f32| if x.is_finite() { x } else { 0.0 };
-        let tint = [0, 1, 2].map(|c| plane(&|k| feature(input.albedo[3 * k + c]).clamp(0.0, 1.0)));
+        let of_half = input.albedo.map(|albedo| move |k: usize| feature(albedo[k]).clamp(0.0, 1.0));
+        let of_both = |k: usize| input.share * of_half[0](k) + (1.0 - input.share) * of_half[1](k);
+        let tint = [0, 1, 2].map(|c| plane(&|k| of_both(3 * k + c)));
         let albedo = [0, 1, 2].map(|c| plane(&|k| tint[c].values[k].max(DARK)));
+        let knows = |k: usize| (0..3).all(|c| of_half.iter().all(|of| of(3 * k + c) >= ENOUGH * tint[c].values[k]));
+        let apart: Vec<bool> = (0..width * height).into_par_iter().map(knows).collect();
+        let divisors = [0, 1].map(|half: usize| {
+            let own = |c: usize, k: usize| of_half[half](3 * k + c).max(DARK);
+            [0, 1, 2].map(|c| plane(&|k| if apart[k] { own(c, k) } else { albedo[c].values[k] }))
+        });
         let lamps = [0, 1, 2].map(|c| plane(&|k| number(input.lamps[3 * k + c])));
-        let halves =
-            input.halves.map(|half| [0, 1, 2].map(|c| plane(&|k| number(half[3 * k + c]) / albedo[c].values[k])));
+        let both = |k: usize| input.share * input.halves[0][k] + (1.0 - input.share) * input.halves[1][k];
+        let halves = [0, 1].map(|half: usize| {
+            let radiance = |k: usize, c: usize| if apart[k] { input.halves[half][3 * k + c] } else { both(3 * k + c) };
+            [0, 1, 2].map(|c| plane(&|k| number(radiance(k, c)) / divisors[half][c].values[k]))
+        });
         let shape = plane(&|k| {
-            let [r, g, b] = [0, 1, 2].map(|c| albedo[c].values[k]);
-            let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+            let luminance = luminance(&albedo, k);
             let variance = input.variance[k] / scale / scale / (luminance * luminance);
             if variance.is_finite() { variance.clamp(0.0, MOST) } else { 0.0 }
         });
-        let variance = variance(&halves, input.share, &shape);
+        let of_texture = plane(&|k| {
+            let of_half = [0, 1].map(|half: usize| luminance(&divisors[half], k) * luminance(&halves[half], k));
+            let unlike = [0, 1].map(|half: usize| luminance(&divisors[half], k));
+            let light = (of_half[0] + of_half[1]) / (unlike[0] + unlike[1]);
+            let of_mean = light * (unlike[0] - unlike[1]) / luminance(&albedo, k);
+            (input.share * (1.0 - input.share) * of_mean * of_mean).min(MOST)
+        });
+        let variance = variance(&halves, input.share, &Shape { samples: shape, of_texture, apart: &apart });
         let normal = [0, 1, 2].map(|c| plane(&|k| feature(input.normal[3 * k + c]).clamp(-1.0, 1.0)));
         let near = plane(&|k| if input.depth[k] > 0.0 { (1.0 / input.depth[k]).min(MOST) } else { 0.0 });
         let slope = [slope(&near, 1), slope(&near, width)];
@@ -66,6 +94,8 @@ impl Prepared {
             share: input.share,
             scale,
             albedo,
+            divisors,
+            apart,
             lamps,
             halves,
             variance,
@@ -104,14 +134,40 @@ fn differences([one, other]: &[Colours; 2], share: f32) -> Plane {
 /// The variance of a half: as large as the halves tell over a wide square, of the shape that the samples' own has
 /// (Rousselle, Knaus, Zwicker 2012, section 5). That one believes the samples independent, which those that are
 /// stratified and pixels that share are not: they have a third of it or less.
-fn variance(halves: &[Colours; 2], share: f32, shape: &Plane) -> Plane {
+///
+/// Where the samples differ by what they have met of a texture, theirs is no shape of that: the less of it is of light,
+/// the more the halves alone are asked, over a smaller square.
+fn variance(halves: &[Colours; 2], share: f32, Shape { samples, of_texture, apart }: &Shape<'_>) -> Plane {
+    let (width, height) = (samples.width, samples.height);
     let of_halves = differences(halves, share);
-    let (wide, wide_shape) = (of_halves.blurred(WIDE), shape.blurred(WIDE));
-    let (near, near_shape) = (of_halves.blurred(2), shape.blurred(1));
-    Plane::of(shape.width, shape.height, |k| {
+    // What is not apart does not differ.
+    let is_apart = Plane::of(width, height, |k| f32::from(u8::from(apart[k])));
+    let samples_apart = Plane::of(width, height, |k| samples.values[k] * is_apart.values[k]);
+    let (wide, wide_shape) = (of_halves.blurred(WIDE), samples_apart.blurred(WIDE));
+    let (near, near_apart) = (of_halves.blurred(NEAR), is_apart.blurred(NEAR));
+    let (texture, whole) = (of_texture.blurred(NEAR), samples.blurred(NEAR));
+    let shape = samples.blurred(1);
+    Plane::of(width, height, |k| {
+        let near = near.values[k] / near_apart.values[k].max(f32::MIN_POSITIVE);
         let size = wide.values[k] / wide_shape.values[k];
-        if size.is_finite() { near_shape.values[k] * size } else { near.values[k] }
+        let of_texture = texture.values[k] / whole.values[k];
+        let of_light = if of_texture.is_finite() { 1.0 - of_texture.min(1.0) } else { 1.0 };
+        if size.is_finite() { of_light * shape.values[k] * size + (1.0 - of_light) * near } else { near }
     })
+}
+
+/// What the samples tell of where there is more noise and where less.
+struct Shape<'a> {
+    /// Variance of a pixel's mean, were they independent.
+    samples: Plane,
+    /// How much of it is of a texture, as far as the halves tell.
+    of_texture: Plane,
+    /// See [`Prepared::apart`].
+    apart: &'a [bool],
+}
+
+fn luminance(of: &Colours, k: usize) -> f32 {
+    0.2126 * of[0].values[k] + 0.7152 * of[1].values[k] + 0.0722 * of[2].values[k]
 }
 
 /// The variance of halves that were filtered, of which nothing else is known.

@@ -99,22 +99,17 @@ pub fn denoise_while(film: &Film, goes_on: &(dyn Fn() -> bool + Sync)) -> Result
     let variance: Vec<f32> = (0..pixels).into_par_iter().map(|k| finite(film.variance(at(k).0, at(k).1))).collect();
     // All of them are there: else the film would lack them.
     let layer = |layer| film.layer(layer).map(|image| image.values).unwrap_or_default();
-    let [mut albedo, normal, depth] = [Layer::DenoisingAlbedo, Layer::DenoisingNormal, Layer::Depth].map(layer);
-    if film.has_backdrop() {
-        // The layer has white where nothing is hit. What is behind is not part of the picture: without it thin dark
-        // things are divided by what they reflect, and not by what they leave free.
-        albedo.par_chunks_mut(3).enumerate().for_each(|(k, albedo)| {
-            let free = 1.0 - film.alpha(at(k).0, at(k).1) as f32;
-            albedo.iter_mut().for_each(|x| *x = (*x - free).max(0.0));
-        });
-    }
+    let [normal, depth] = [Layer::DenoisingNormal, Layer::Depth].map(layer);
+    let albedos: Vec<[[f64; 3]; 2]> =
+        (0..pixels).into_par_iter().map(|k| film.albedo_of_halves(at(k).0, at(k).1)).collect();
+    let albedo = [0, 1].map(|half| albedos.iter().flat_map(|of| of[half].map(finite)).collect::<Vec<f32>>());
     let input = Input {
         width: width as usize,
         height: height as usize,
         halves: [&pictures[0], &pictures[1]],
         share: share as f32,
         lamps: &lamps,
-        albedo: &albedo,
+        albedo: [&albedo[0], &albedo[1]],
         normal: &normal,
         depth: &depth,
         variance: &variance,

@@ -97,8 +97,8 @@ fn kept(text: &str) -> f64 {
 }
 
 /// White dots on black keep their light: black texels, which know nothing of the light on them, took 4.3 % from the
-/// pixels at their borders, and other seeds make a tenth of a per cent of difference. So do dark rods over nothing,
-/// which got 3.2 % from what they leave free.
+/// pixels at their borders, and 0.4 % were still lost where the one half had met black alone; other seeds make less than
+/// a ten thousandth of difference. So do dark rods over nothing, which got 3.2 % from what they leave free.
 #[test]
 fn patterns_and_thin_things_keep_their_light() {
     let dots = "Scene(camera: Camera(position: (0, 1.6, 5), look_at: (0, 0.5, 0), fov: 40), \
@@ -109,7 +109,7 @@ fn patterns_and_thin_things_keep_their_light() {
         output: Output(alpha: true), lights: [SphereLight(center: (2, 3, 4), radius: 0.3, radiance: 50)], \
         objects: [Repeat(count: 60, index: \"i\", items: [Cylinder(material: Diffuse(albedo: 0.05), radius: 0.008, \
             from: (\"=2*random(i)-1\", -2, \"=random(i+100)\"), to: (\"=2*random(i+200)-1\", 2, 0))])])";
-    for (name, text, most) in [("dots", dots, 0.005), ("rods", rods, 0.01)] {
+    for (name, text, most) in [("dots", dots, 0.001), ("rods", rods, 0.01)] {
         let kept = kept(text);
         assert!((kept - 1.0).abs() < most, "{name}: {kept}");
     }

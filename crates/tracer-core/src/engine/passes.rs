@@ -174,6 +174,8 @@ pub struct Painter<'a> {
     pub mattes: MattesKept,
     /// Where the layer `emission` stands among the sums of samples, where halves are kept.
     pub lamps: Option<usize>,
+    /// And the layer `denoising_albedo`.
+    pub albedo: Option<usize>,
     /// When the rendering ends at the latest.
     pub until: Option<Instant>,
     /// The sample index whose light paths are not wanted any more.
@@ -416,6 +418,9 @@ impl Painter<'_> {
         }
         if half == 1 {
             tile.add_half(samples, common);
+            if let Some(place) = self.albedo {
+                tile.add_half_albedo(layers, (place, !self.backdrop), slots, common);
+            }
         }
         if let Some(place) = self.lamps {
             let lamps = [0, 1, 2].map(|c| &layers.sums[place + c][slots.clone()]);

@@ -8,11 +8,12 @@
 //! one half would have the left of each pixel, the other the right.
 
 use super::exact::{LEAST, Sums, fixed};
+use super::layers::{is_hit, within};
 use super::pack::{pack, unpack};
 use super::{Film, PIXELS, Samples, Tile, counts};
 use bytemuck::Zeroable;
 use std::ops::Range;
-use tracer_kernels::layers::{Layer, LayerSet};
+use tracer_kernels::layers::{Layer, LayerSamples, LayerSet};
 
 /// What a tile holds of the second half of its samples.
 #[derive(Clone, Debug, PartialEq, Zeroable)]
@@ -24,6 +25,9 @@ pub(super) struct TileHalf {
     /// What camera rays of either half have met of lamps, where they have; and of the background, where the film keeps
     /// that by itself.
     lamps: Option<Box<[Sums; 2]>>,
+    /// The layer `denoising_albedo` of its samples, where the film has that; of those that have hit something where the
+    /// film keeps the background by itself.
+    albedo: Option<Box<Sums>>,
 }
 
 /// The half that a sample index is of: 0 or 1.
@@ -53,14 +57,15 @@ fn second_of(samples: Range<u32>) -> u32 {
 impl TileHalf {
     /// Bytes of memory that it takes in a tile at most.
     pub fn most_bytes(light_paths: bool) -> usize {
-        size_of::<TileHalf>() + size_of::<[Sums; 2]>() + if light_paths { size_of::<Sums>() } else { 0 }
+        size_of::<TileHalf>() + (3 + usize::from(light_paths)) * size_of::<Sums>()
     }
 
     /// Bytes of memory that it takes.
     pub fn bytes(&self) -> usize {
         let of = |there: bool, size: usize| if there { size } else { 0 };
-        let optional = of(self.splats.is_some(), size_of::<Sums>()) + of(self.lamps.is_some(), size_of::<[Sums; 2]>());
-        size_of::<TileHalf>() + optional
+        let (splats, albedo) = (self.splats.is_some(), self.albedo.is_some());
+        let optional = [splats, albedo].map(|there| of(there, size_of::<Sums>())).iter().sum::<usize>();
+        size_of::<TileHalf>() + optional + of(self.lamps.is_some(), size_of::<[Sums; 2]>())
     }
 
     /// Adds what another has of the same pixels.
@@ -70,6 +75,9 @@ impl TileHalf {
         super::merge::add_counts(&mut self.samples, &other.samples);
         if let Some(from) = &other.splats {
             add(self.splats.get_or_insert_with(|| Box::new(Sums::zeroed())), from);
+        }
+        if let Some(from) = &other.albedo {
+            add(self.albedo.get_or_insert_with(|| Box::new(Sums::zeroed())), from);
         }
         if let Some(from) = &other.lamps {
             let lamps = self.lamps.get_or_insert_with(|| Box::new(Zeroable::zeroed()));
@@ -84,10 +92,12 @@ impl TileHalf {
 
     /// Appends it to a tile's record.
     pub fn record(&self, out: &mut Vec<u8>) {
-        out.push(u8::from(self.splats.is_some()) | u8::from(self.lamps.is_some()) << 1);
+        let parts = [self.splats.is_some(), self.lamps.is_some(), self.albedo.is_some()];
+        out.push(parts.iter().zip(0..).map(|(&there, bit)| u8::from(there) << bit).sum());
         pack(|k| self.samples[k].into(), out);
         let lamps = self.lamps.iter().flat_map(|lamps| lamps.iter());
-        for sums in std::iter::once(&self.sums).chain(self.splats.as_deref()).chain(lamps) {
+        for sums in std::iter::once(&self.sums).chain(self.splats.as_deref()).chain(lamps).chain(self.albedo.as_deref())
+        {
             (0..3).for_each(|c| pack(|k| sums.of(c, k), out));
         }
     }
@@ -96,19 +106,20 @@ impl TileHalf {
     pub fn read(from: &mut &[u8], samples: &[u32; PIXELS]) -> Option<Box<Self>> {
         let mut half = Box::new(TileHalf::zeroed());
         let parts = *from.split_off_first()?;
-        if parts > 3 {
+        if parts > 7 {
             return None;
         }
         half.splats = (parts & 1 != 0).then(|| Box::new(Sums::zeroed()));
         half.lamps = (parts & 2 != 0).then(|| Box::new(Zeroable::zeroed()));
+        half.albedo = (parts & 4 != 0).then(|| Box::new(Sums::zeroed()));
         let mut fits = true;
         unpack(from, |k, count| match u32::try_from(count) {
             Ok(count) if count <= samples[k] => half.samples[k] = count,
             _ => fits = false,
         })?;
-        let TileHalf { sums, splats, lamps, .. } = &mut *half;
+        let TileHalf { sums, splats, lamps, albedo, .. } = &mut *half;
         let lamps = lamps.iter_mut().flat_map(|lamps| lamps.iter_mut());
-        for sums in std::iter::once(sums).chain(splats.as_deref_mut()).chain(lamps) {
+        for sums in std::iter::once(sums).chain(splats.as_deref_mut()).chain(lamps).chain(albedo.as_deref_mut()) {
             (0..3).try_for_each(|c| unpack(from, |k, sum| sums.set(c, k, sum)))?;
         }
         fits.then_some(half)
@@ -149,6 +160,25 @@ impl Tile {
         }
     }
 
+    /// Adds what samples of the second half have met of the layer `denoising_albedo`, whose sums begin at `place`; the
+    /// pixels are those of [`Tile::add`]. `all`: whether those count that have hit nothing.
+    pub(crate) fn add_half_albedo(
+        &mut self,
+        layers: &LayerSamples,
+        (place, all): (usize, bool),
+        slots: &Range<usize>,
+        pixels: &[[u8; 2]],
+    ) {
+        let Some(half) = &mut self.half else { return };
+        let albedo = half.albedo.get_or_insert_with(|| Box::new(Sums::zeroed()));
+        for &[k, pixel] in pixels {
+            let slot = slots.start + usize::from(k);
+            if all || is_hit(layers, slot) {
+                albedo.add(usize::from(pixel), [0, 1, 2].map(|c| fixed(within(layers.sums[place + c][slot]))));
+            }
+        }
+    }
+
     /// Adds what a half's sample shows beside the light on surfaces, where halves are kept.
     pub(super) fn add_to_lamps(&mut self, of: usize, pixel: usize, added: [i128; 3]) {
         if let Some(half) = &mut self.half {
@@ -172,11 +202,11 @@ impl Film {
         }
     }
 
-    /// Where the layer `emission` stands among the sums of a sample's layers, if it is kept for halves.
-    pub(crate) fn place_of_lamps(&self) -> Option<usize> {
+    /// Where a layer stands among the sums of a sample's layers, if it is kept for halves.
+    pub(crate) fn place_for_halves(&self, layer: Layer) -> Option<usize> {
         let layers = self.layers();
-        let before: LayerSet = layers.iter().take_while(|&layer| layer != Layer::Emission).collect();
-        (self.halves && layers.iter().any(|layer| layer == Layer::Emission)).then(|| before.kept().sums)
+        let before: LayerSet = layers.iter().take_while(|&other| other != layer).collect();
+        (self.halves && layers.iter().any(|other| other == layer)).then(|| before.kept().sums)
     }
 
     /// Whether two halves of the samples are kept apart ([`crate::RenderOptions::halves`]).
@@ -200,6 +230,29 @@ impl Film {
         let samples = self.samples_of_halves(x, y);
         let Some(lamps) = tile.half.as_ref().and_then(|half| half.lamps.as_deref()) else { return [[0.0; 3]; 2] };
         [0, 1].map(|of| lamps[of].mean(pixel, samples[of]).map(|x| x * self.unit))
+    }
+
+    /// The layer `denoising_albedo` of either half, where the film has it, else zero; without what is white where nothing
+    /// is hit, where the film keeps the background by itself ([`Film::has_backdrop`]): what is behind is not part of the
+    /// picture then, and thin dark things are divided by what they reflect, not by what they leave free.
+    pub fn albedo_of_halves(&self, x: u32, y: u32) -> [[f64; 3]; 2] {
+        let (tile, pixel) = self.place(x, y);
+        let samples = self.samples_of_halves(x, y);
+        let (Some(place), Some(layers)) = (self.place_for_halves(Layer::DenoisingAlbedo), tile.layers.as_deref())
+        else {
+            return [[0.0; 3]; 2];
+        };
+        let missed = if self.backdrop { tile.samples[pixel].saturating_sub(layers.hits_of(pixel)) } else { 0 };
+        let white = i128::from(missed) * fixed(1.0);
+        let second = tile.half.as_ref().and_then(|half| half.albedo.as_deref());
+        [0, 1].map(|of| {
+            [0, 1, 2].map(|c| {
+                let second = second.map_or(0, |second| second.of(c, pixel));
+                let first = || layers.sum_of(place + c, pixel).wrapping_sub(white).wrapping_sub(second);
+                let sum = if of == 1 { second } else { first() };
+                sum as f64 * LEAST / f64::from(samples[of].max(1))
+            })
+        })
     }
 
     /// Mean radiance of a pixel over either half of its samples, linear RGB, as [`Film::radiance`] is over all; `None`

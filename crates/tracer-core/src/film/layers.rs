@@ -87,6 +87,11 @@ impl TileLayers {
         self.hits[pixel]
     }
 
+    /// The sum of a channel, by its place among all of them.
+    pub fn sum_of(&self, channel: usize, pixel: usize) -> i128 {
+        self.sums[channel][pixel]
+    }
+
     /// Appends it to a tile's record.
     pub fn record(&self, out: &mut Vec<u8>) {
         pack(|k| self.hits[k].into(), out);
@@ -162,7 +167,7 @@ impl Tile {
 /// What can be summed: 6.7e7 times the scene's size or its brightest light at most, which is as good as infinite for a
 /// layer. No layer makes a NaN of a hit; were there one, it would count as zero.
 #[inline(always)]
-fn within(x: f32) -> f32 {
+pub(super) fn within(x: f32) -> f32 {
     if x.is_nan() { 0.0 } else { x.clamp(-LARGEST, LARGEST) }
 }
 
