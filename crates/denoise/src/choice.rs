@@ -44,13 +44,13 @@ impl Chosen {
 /// half F and the noisy other one O differ by F's error and O's variance, and the mean of two filtered halves has
 /// less variance than each. With a and b the shares of the halves, D and E the squared differences of the noisy and
 /// of the filtered halves, that is a (F_1 - O_2)^2 + b (F_2 - O_1)^2 - (a^2 + b^2) D - a b E; the noisy picture's is
-/// a b D. Zero where the halves are not apart.
+/// a b D. Zero where the halves say nothing of noise.
 fn error(prepared: &Prepared, irradiance: impl Fn(usize, usize, usize) -> f32 + Sync) -> Plane {
     let a = prepared.share;
     let b = 1.0 - a;
     Plane::of(prepared.width, prepared.height, |k| {
         let of_channel = |c: usize| {
-            let albedo = if prepared.apart[k] { prepared.albedo[c].values[k] } else { 0.0 };
+            let albedo = if prepared.knows[k] { prepared.albedo[c].values[k] } else { 0.0 };
             let noisy = [0, 1].map(|half| prepared.halves[half][c].values[k]);
             let filtered = [0, 1].map(|half| irradiance(half, c, k));
             let square = |x: f32, y: f32| (x - y) * (x - y);
@@ -124,7 +124,7 @@ fn with_peaks(prepared: &Prepared, blended: [Colours; 2]) -> [Colours; 2] {
             product += (one - blended[1][c].values[k]) * (other - blended[0][c].values[k]);
             difference += (one - other) * (one - other);
         }
-        prepared.apart[k] && product > PEAK * prepared.variance.values[k].max(0.5 * difference)
+        product > PEAK * prepared.variance.values[k].max(0.5 * difference)
     };
     [0, 1].map(|half| {
         [0, 1, 2].map(|c| {

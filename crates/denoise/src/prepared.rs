@@ -30,9 +30,9 @@ pub struct Prepared {
     pub albedo: Colours,
     /// What either half was divided by to be irradiance.
     pub divisors: [Colours; 2],
-    /// Of each pixel whether its halves know light by themselves; else both have the mean of both, which says nothing of
-    /// noise.
-    pub apart: Vec<bool>,
+    /// Of each pixel whether its halves know light by themselves; else they are apart by what they have met of a texture,
+    /// which says nothing of noise.
+    pub knows: Vec<bool>,
     /// What is added then.
     pub lamps: Colours,
     /// Irradiance of both halves.
@@ -61,16 +61,14 @@ impl Prepared {
         let tint = [0, 1, 2].map(|c| plane(&|k| of_both(3 * k + c)));
         let albedo = [0, 1, 2].map(|c| plane(&|k| tint[c].values[k].max(DARK)));
         let knows = |k: usize| (0..3).all(|c| of_half.iter().all(|of| of(3 * k + c) >= ENOUGH * tint[c].values[k]));
-        let apart: Vec<bool> = (0..width * height).into_par_iter().map(knows).collect();
+        let knows: Vec<bool> = (0..width * height).into_par_iter().map(knows).collect();
         let divisors = [0, 1].map(|half: usize| {
             let own = |c: usize, k: usize| of_half[half](3 * k + c).max(DARK);
-            [0, 1, 2].map(|c| plane(&|k| if apart[k] { own(c, k) } else { albedo[c].values[k] }))
+            [0, 1, 2].map(|c| plane(&|k| if knows[k] { own(c, k) } else { albedo[c].values[k] }))
         });
         let lamps = [0, 1, 2].map(|c| plane(&|k| number(input.lamps[3 * k + c])));
-        let both = |k: usize| input.share * input.halves[0][k] + (1.0 - input.share) * input.halves[1][k];
         let halves = [0, 1].map(|half: usize| {
-            let radiance = |k: usize, c: usize| if apart[k] { input.halves[half][3 * k + c] } else { both(3 * k + c) };
-            [0, 1, 2].map(|c| plane(&|k| number(radiance(k, c)) / divisors[half][c].values[k]))
+            [0, 1, 2].map(|c| plane(&|k| number(input.halves[half][3 * k + c]) / divisors[half][c].values[k]))
         });
         let shape = plane(&|k| {
             let luminance = luminance(&albedo, k);
@@ -84,7 +82,7 @@ impl Prepared {
             let of_mean = light * (unlike[0] - unlike[1]) / luminance(&albedo, k);
             (input.share * (1.0 - input.share) * of_mean * of_mean).min(MOST)
         });
-        let variance = variance(&halves, input.share, &Shape { samples: shape, of_texture, apart: &apart });
+        let variance = variance(&halves, input.share, &Shape { samples: shape, of_texture, knows: &knows });
         let normal = [0, 1, 2].map(|c| plane(&|k| feature(input.normal[3 * k + c]).clamp(-1.0, 1.0)));
         let near = plane(&|k| if input.depth[k] > 0.0 { (1.0 / input.depth[k]).min(MOST) } else { 0.0 });
         let slope = [slope(&near, 1), slope(&near, width)];
@@ -95,7 +93,7 @@ impl Prepared {
             scale,
             albedo,
             divisors,
-            apart,
+            knows,
             lamps,
             halves,
             variance,
@@ -137,11 +135,11 @@ fn differences([one, other]: &[Colours; 2], share: f32) -> Plane {
 ///
 /// Where the samples differ by what they have met of a texture, theirs is no shape of that: the less of it is of light,
 /// the more the halves alone are asked, over a smaller square.
-fn variance(halves: &[Colours; 2], share: f32, Shape { samples, of_texture, apart }: &Shape<'_>) -> Plane {
+fn variance(halves: &[Colours; 2], share: f32, Shape { samples, of_texture, knows }: &Shape<'_>) -> Plane {
     let (width, height) = (samples.width, samples.height);
     let of_halves = differences(halves, share);
-    // What is not apart does not differ.
-    let is_apart = Plane::of(width, height, |k| f32::from(u8::from(apart[k])));
+    let of_halves = Plane::of(width, height, |k| if knows[k] { of_halves.values[k] } else { 0.0 });
+    let is_apart = Plane::of(width, height, |k| f32::from(u8::from(knows[k])));
     let samples_apart = Plane::of(width, height, |k| samples.values[k] * is_apart.values[k]);
     let (wide, wide_shape) = (of_halves.blurred(WIDE), samples_apart.blurred(WIDE));
     let (near, near_apart) = (of_halves.blurred(NEAR), is_apart.blurred(NEAR));
@@ -162,8 +160,8 @@ struct Shape<'a> {
     samples: Plane,
     /// How much of it is of a texture, as far as the halves tell.
     of_texture: Plane,
-    /// See [`Prepared::apart`].
-    apart: &'a [bool],
+    /// See [`Prepared::knows`].
+    knows: &'a [bool],
 }
 
 fn luminance(of: &Colours, k: usize) -> f32 {
