@@ -38,8 +38,8 @@ pub fn mend(name: &str, text: &str, syntax: Syntax, base_dir: &Path) -> Mended {
     let mut faults = look(&text);
     let first = faults.clone();
     loop {
-        let edits: Vec<Edit> =
-            faults.iter().filter(|fault| is_certain(fault)).filter_map(|fault| fault.edit.clone()).collect();
+        let certain = faults.iter().filter(|fault| is_certain(fault, &text, syntax));
+        let edits: Vec<Edit> = certain.filter_map(|fault| fault.edit.clone()).collect();
         let singly = edits.iter().take(if edits.len() > 1 { MOST_TRIED } else { 0 }).map(std::slice::from_ref);
         let better = std::iter::once(edits.as_slice()).chain(singly).find_map(|edits| {
             let mut kept = changes.clone();
@@ -61,11 +61,48 @@ pub fn mend(name: &str, text: &str, syntax: Syntax, base_dir: &Path) -> Mended {
     Mended { faults: first.len().saturating_sub(faults.len()), changes: changes.between(before, &text), text }
 }
 
-/// Whether an edit is what must have been meant. Of names that a person has given nobody knows which one was.
-fn is_certain(fault: &Diagnostic) -> bool {
+/// Whether an edit is what must have been meant. Of names that a person has given nobody knows which one was; nor where
+/// a comment belongs for which the edit has no place.
+fn is_certain(fault: &Diagnostic, text: &str, syntax: Syntax) -> bool {
     let named = [codes::UNKNOWN_MATERIAL, codes::UNKNOWN_NAME, codes::UNKNOWN_CAMERA, codes::UNKNOWN_MASK];
     let by_likeness = |edit: &Edit| named.contains(&fault.code) && edit.replacement.starts_with('"');
-    fault.edit.as_ref().is_some_and(|edit| edit.span.source == 0 && !by_likeness(edit))
+    let keeps_comments = |edit: &Edit| {
+        let replaced = text.get(edit.span.start as usize..edit.span.end as usize).unwrap_or("");
+        // JSON has none: there they are what is wrong.
+        syntax == Syntax::Json || comments(replaced, syntax).iter().all(|comment| edit.replacement.contains(comment))
+    };
+    fault.edit.as_ref().is_some_and(|edit| edit.span.source == 0 && !by_likeness(edit) && keeps_comments(edit))
+}
+
+/// The comments of a piece of text, outside of quotes.
+fn comments(text: &str, syntax: Syntax) -> Vec<&str> {
+    let mut found = Vec::new();
+    let mut rest = text;
+    while let Some(at) = rest.find(['"', '\'', '/', '#']) {
+        rest = &rest[at..];
+        let line = rest.lines().next().unwrap_or("");
+        let is_line = if syntax == Syntax::Toml { rest.starts_with('#') } else { rest.starts_with("//") };
+        let length = if is_line {
+            found.push(line.trim_end());
+            line.len()
+        } else if syntax == Syntax::Ron && rest.starts_with("/*") {
+            let length = rest.find("*/").map_or(rest.len(), |end| end + 2);
+            found.push(&rest[..length]);
+            length
+        } else if let Some(quote) = rest.chars().next().filter(|sign| matches!(sign, '"' | '\'')) {
+            let mut escaped = false;
+            let end = line[1..].find(|sign| {
+                let closes = sign == quote && !escaped;
+                escaped = sign == '\\' && !escaped;
+                closes
+            });
+            end.map_or(1, |end| end + 2)
+        } else {
+            1
+        };
+        rest = &rest[length..];
+    }
+    found
 }
 
 /// A mended text, of the same number of lines, with those lines as they were that have got an error of another kind:

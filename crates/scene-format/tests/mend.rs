@@ -210,6 +210,34 @@ fn what_may_mean_two_things_is_told_and_not_mended() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
+/// An edit that has no place for a comment is offered, and not made.
+#[test]
+fn comments_are_kept() {
+    for object in [
+        "Sphere(center: vec3(1, /* up */ 2, 3), radius: 1)",
+        "Sphere(radius: 1, color: /* red */ (1, 0, 0))",
+        "Box(transform: [Scale(2, /* y */ 2, 2)])",
+        "Polygon(points: [0, 0, 0, // \"first\"\n            1, 0, 0, 0, 1, 0])",
+    ] {
+        let text = with_object(&format!("        {object},"));
+        assert_eq!(mend("scene", &text, Syntax::Ron, Path::new("")).text, text);
+        assert_eq!(errors(&text, Syntax::Ron), 1, "{object}");
+    }
+    let text = "background = 1\n[[objects]]\nPolygon = { points = [0, 0, 0, # first\n1, 0, 0, 0, 1, 0] }\n";
+    assert_eq!(mend("scene", text, Syntax::Toml, Path::new("")).text, text);
+    // Where it stays, or is none, the rest is mended.
+    for (object, right) in [
+        ("Sphere(raduis: /* one */ 1)", "Sphere(radius: /* one */ 1)"),
+        ("Mesh(path: '//host/a.obj')", "Mesh(file: \"//host/a.obj\")"),
+        (
+            "Sphere(radius: 1, material: Diffuse(pigment: /* red */ red))",
+            "Sphere(radius: 1, material: Diffuse(albedo: /* red */ \"#ff0000\"))",
+        ),
+    ] {
+        assert_eq!(mend("scene", &with_object(object), Syntax::Ron, Path::new("")).text, with_object(right));
+    }
+}
+
 /// Ends along an axis, and lengths that are reckoned.
 #[test]
 fn what_goes_along_an_axis_keeps_it() {
