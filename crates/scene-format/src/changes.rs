@@ -21,7 +21,7 @@ pub struct Change {
 }
 
 /// More of a text than this is not shown.
-const SHOWN: usize = 60;
+const SHOWN: usize = 240;
 
 impl Change {
     /// What was changed, in a few words: `` `raduis` is now `radius` ``.
@@ -78,9 +78,9 @@ fn shown(text: &str) -> String {
     if count <= SHOWN {
         return line;
     }
-    let begin: String = line.chars().take(SHOWN - 22).collect();
-    let end: String = line.chars().skip(count - 20).collect();
-    format!("{begin}..{end}")
+    let begin: String = line.chars().take(SHOWN - 62).collect();
+    let end: String = line.chars().skip(count - 60).collect();
+    format!("{begin} [..] {end}")
 }
 
 /// A piece of the first text, and what stands for it.
@@ -118,7 +118,8 @@ impl Changes {
         let at = |original: usize, moved: isize| original.wrapping_add_signed(moved);
         while let Some(piece) = self.pieces.get(first) {
             let end = at(piece.bytes.start, moved) + piece.text.len();
-            if end >= bytes.start {
+            // What only touches stays a change of its own.
+            if end > bytes.start {
                 break;
             }
             moved += piece.text.len() as isize - piece.bytes.len() as isize;
@@ -129,7 +130,7 @@ impl Changes {
         let mut after = moved;
         while let Some(piece) = self.pieces.get(last) {
             let begin = at(piece.bytes.start, after);
-            if begin > bytes.end {
+            if begin >= bytes.end {
                 break;
             }
             if last == first && begin < start {
@@ -147,6 +148,9 @@ impl Changes {
     /// What was changed between the first text and the last, lines of which may have been put back.
     pub fn between(mut self, before: &str, after: &str) -> Vec<Change> {
         self.pieces.retain(|piece| before[piece.bytes.clone()] != *piece.text);
+        if self.made_of(before) != after {
+            self.pieces.retain(|piece| !is_put_back(before, after, &piece.bytes));
+        }
         if self.made_of(before) != after {
             self.pieces = by_lines(before, after);
         }
@@ -178,7 +182,15 @@ impl Changes {
     }
 }
 
-/// The lines that differ between two texts of as many lines, without what each has in common with the other.
+/// Whether the lines that a piece of the first text touches are in the last one as they were, of as many lines.
+fn is_put_back(before: &str, after: &str, bytes: &Range<usize>) -> bool {
+    let first = before[..bytes.start].matches('\n').count();
+    let count = before[bytes.clone()].matches('\n').count() + 1;
+    let lines = |text| str::split_inclusive(text, '\n').skip(first).take(count);
+    lines(before).eq(lines(after))
+}
+
+/// The lines that differ between two texts of as many lines, without the words at their ends that both have.
 fn by_lines(before: &str, after: &str) -> Vec<Piece> {
     let mut at = 0;
     let mut pieces = Vec::new();
@@ -187,14 +199,21 @@ fn by_lines(before: &str, after: &str) -> Vec<Piece> {
             let same = |a: &mut dyn Iterator<Item = char>, b: &mut dyn Iterator<Item = char>| -> usize {
                 a.zip(b).take_while(|(a, b)| a == b).map(|(a, _)| a.len_utf8()).sum()
             };
-            let head = same(&mut old.chars(), &mut new.chars());
-            let tail = same(&mut old[head..].chars().rev(), &mut new[head..].chars().rev());
+            let mut head = same(&mut old.chars(), &mut new.chars());
+            head -= old[..head].chars().rev().take_while(|c| is_of_word(*c)).map(char::len_utf8).sum::<usize>();
+            let mut tail = same(&mut old[head..].chars().rev(), &mut new[head..].chars().rev());
+            let end = &old[old.len() - tail..];
+            tail -= end.chars().take_while(|c| is_of_word(*c)).map(char::len_utf8).sum::<usize>();
             let text = new[head..new.len() - tail].to_owned();
             pieces.push(Piece { bytes: at + head..at + old.len() - tail, text });
         }
         at += old.len();
     }
     pieces
+}
+
+fn is_of_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
 }
 
 #[cfg(test)]
@@ -227,6 +246,12 @@ mod tests {
         assert_eq!(told("one two", &[&[edit(0, 3, "three")], &[edit(2, 8, "!")]]), ["1:1 `one tw` is now `th!`"]);
         assert_eq!(told("one", &[&[edit(3, 3, ",")]]), ["1:4 added `,`"]);
         assert_eq!(told("one", &[&[edit(0, 3, "two")], &[edit(0, 3, "one")]]), [""; 0]);
+        // What only touches is not, whichever is first.
+        for rounds in [&[&[edit(0, 3, "two"), edit(3, 4, "(")][..]][..], &[&[edit(3, 4, "(")], &[edit(0, 3, "two")]]] {
+            assert_eq!(told("one{", rounds), ["1:1 `one` is now `two`", "1:4 `{` is now `(`"]);
+        }
+        let long = "a b ".repeat(50);
+        assert_eq!(told(&long, &[&[edit(0, 199, "c")]]), [format!("1:1 `{}` is now `c`", long.trim_end())]);
     }
 
     #[test]
@@ -237,5 +262,8 @@ mod tests {
         let kept = changes.between("a b\nc d\n", "a b\nc y\n");
         assert_eq!(kept.iter().map(|change| (change.line, change.column)).collect::<Vec<_>>(), [(2, 3)]);
         assert_eq!((&*kept[0].before, &*kept[0].after), ("d", "y"));
+        // Each by whole words, where nothing else is known of it.
+        let kept = Changes::default().between("radius: 1,5 + wide\n", "radius: 1.5 + tide\n");
+        assert_eq!((kept.len(), &*kept[0].said()), (1, "`1,5 + wide` is now `1.5 + tide`"));
     }
 }
