@@ -182,6 +182,17 @@ fn what_may_mean_two_things_is_told_and_not_mended() {
             "write `count: 2, vars: { \"v\": Pick(from: [1, 3], index: \"=i\") }`, and no `index`",
         ),
         ("Repeat(from: 1, to: 8, items: [Box(size: 1)])", "it counts from 0"),
+        ("Cylinder(p1: (0, 2, 0), radius: 1)", "`from: (0, 2, 0)` or `to: (0, 2, 0)`?"),
+        ("Box(material: Diffuse(albedo: (1,0, 0, 1)))", "point: (1.0, 0, 1); or, without an alpha, (1, 0, 0)"),
+        ("Sphere(center: (0,5, 1, 2), radius: 1)", "numbers have a decimal point: (0.5, 1, 2)"),
+        ("Box(material: Diffuse(albedo: (1, 2, 3)))", "of values up to 255 write \"#010203\""),
+        ("Box(material: Diffuse(albedo: rgb(1, 2, 3)))", "of values up to 255 write \"#010203\""),
+        ("Box(material: Diffuse(albedo: (50, 25, 0)))", "write \"#321900\", of percents (0.5, 0.25, 0)"),
+        ("Box(material: Emissive(radiance: rgb(255, 200, 100)))", "\"#ffc864\" for a colour of bytes, or (255, 200"),
+        ("Box(rotation: (0, 1, 0))", "write `transform: [Rotate(axis: (0, 1, 0), degrees: 1)]` with the degrees"),
+        ("Box(transform: [Rotate((0, 1, 0))])", "write Rotate(axis: (0, 1, 0), degrees: 1) with the degrees"),
+        ("Box(transform: (scale: (1, 2, 1), rotate: (0, 0, 1)))", "is that an axis, or an angle for each axis?"),
+        ("Sphere(radius: 1,024)", "write 1024, or 1.024"),
     ] {
         let text = with_object(&format!("        {object},"));
         check(&text, Syntax::Ron, way, &mut wrong);
@@ -235,6 +246,67 @@ fn comments_are_kept() {
         ),
     ] {
         assert_eq!(mend("scene", &with_object(object), Syntax::Ron, Path::new("")).text, with_object(right));
+    }
+}
+
+/// Names of the scene's own go before those of CSS.
+#[test]
+fn own_names_are_meant_before_those_of_colors() {
+    for (object, right) in [
+        ("Box(material: Diffuse(albedo: red))", "Box(material: Diffuse(albedo: \"=red\"))"),
+        ("Box(material: Diffuse(albedo: \"red\"))", "Box(material: Diffuse(albedo: \"=red\"))"),
+        ("Box(material: Diffuse(albedo: blue))", "Box(material: Diffuse(albedo: \"blue\"))"),
+        ("Box(material: Diffuse(albedo: lime))", "Box(material: Diffuse(albedo: \"#00ff00\"))"),
+        ("Box(material: Emissive(radiance: red))", "Box(material: Emissive(radiance: \"=red\"))"),
+        ("Box(color: red)", "Box(material: Diffuse(albedo: \"=red\"))"),
+        ("Box(color: \"blue\")", "Box(material: Diffuse(albedo: \"blue\"))"),
+        ("Box(material: { color: \"red\" })", "Box(material: Diffuse(albedo: \"=red\"))"),
+        ("Box(material: Diffuse(\"red\"))", "Box(material: Diffuse(albedo: \"=red\"))"),
+        (
+            "Repeat(count: 1, vars: { \"teal\": 0.5 }, items: [Box(color: teal)])",
+            "Repeat(count: 1, vars: { \"teal\": 0.5 }, items: [Box(material: Diffuse(albedo: \"=teal\"))])",
+        ),
+    ] {
+        let scene = |object: &str| {
+            let names = "vars: { \"red\": (0.6, 0.1, 0.1) }, textures: { \"blue\": Noise() }";
+            format!("Scene(background: red, {names}, objects: [{object}])")
+        };
+        let mended = mend("scene", &scene(object), Syntax::Ron, Path::new(""));
+        assert_eq!(mended.text, scene(right).replace("background: red", "background: \"=red\""));
+    }
+}
+
+/// What is surely of one kind is mended: ends by their numbers, bytes, transforms by fields in the order of programs.
+#[test]
+fn what_is_said_in_one_way_is_mended() {
+    const ALL: &str = "[Scale((1, 2, 1)), Rotate(axis: (0, 1, 0), degrees: 45), Translate((0, 1, 0))]";
+    for (object, right) in [
+        ("Cylinder(p1: (0, 1, 0), p2: (0, 2, 0), radius: 1)", "Cylinder(from: (0, 1, 0), to: (0, 2, 0), radius: 1)"),
+        ("Cone(p2: (0, 2, 0), p1: (0, 1, 0), radius: 1)", "Cone(from: (0, 1, 0), to: (0, 2, 0), radius: 1)"),
+        ("Capsule(p0: (0, 1, 0), p1: (0, 2, 0), radius: 1)", "Capsule(from: (0, 1, 0), to: (0, 2, 0), radius: 1)"),
+        ("Cylinder(p1: (0, 1, 0), to: (0, 2, 0), radius: 1)", "Cylinder(from: (0, 1, 0), to: (0, 2, 0), radius: 1)"),
+        ("Box(material: Diffuse(albedo: (64, 32, 16)))", "Box(material: Diffuse(albedo: \"#402010\"))"),
+        ("Box(material: Diffuse(albedo: rgb(200, 25, 25)))", "Box(material: Diffuse(albedo: \"#c81919\"))"),
+        ("Box(material: Emissive(radiance: rgb(5, 4, 3)))", "Box(material: Emissive(radiance: (5, 4, 3)))"),
+        ("Sphere(center: (1,5, 2,0, 3), radius: 1)", "Sphere(center: (1.5, 2.0, 3), radius: 1)"),
+        (
+            "Box(rotation: (0, 30, 1))",
+            "Box(transform: [Rotate(axis: (0, 1, 0), degrees: 30), Rotate(axis: (0, 0, 1), degrees: 1)])",
+        ),
+        (
+            "Box(transform: { translate: (0, 1, 0), rotate: (0, 45, 0), scale: (1, 2, 1) })",
+            &format!("Box(transform: {ALL})"),
+        ),
+        ("Box(translate: (0, 1, 0), scale: (1, 2, 1), rotate: (0, 45, 0))", &format!("Box(transform: {ALL})")),
+        (
+            "Box(placements: [(position: (0, 1, 0), rotation: (0, 45, 0), scale: (1, 2, 1))])",
+            &format!("Box(placements: [{ALL}])"),
+        ),
+    ] {
+        let (text, right) = (with_object(object), with_object(right));
+        let mended = mend("scene", &text, Syntax::Ron, Path::new(""));
+        assert_eq!(mended.text, right);
+        assert_eq!(errors(&right, Syntax::Ron), 0, "{right}");
     }
 }
 

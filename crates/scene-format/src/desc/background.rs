@@ -2,7 +2,6 @@
 
 use super::{Color, LightGroup, Vec3};
 use crate::codes;
-use crate::css_colors::named_color;
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
@@ -115,8 +114,7 @@ impl Words for Background {
     const TYPE: Type = Type::OneOf(&[Type::Color, BackgroundWords::TYPE]);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
-        if let Some(hex) = named_color(&item.text()).filter(|_| item.kind() == Kind::Word) {
-            let mended = format!("\"{hex}\"");
+        if let Some(mended) = reader.constant_by_name(item).filter(|_| item.kind() == Kind::Word) {
             return reader.wrong_kind(item, at.noun, "a colour, or a picture: Environment(file: ..)", Some(mended));
         }
         if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {

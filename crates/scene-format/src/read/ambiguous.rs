@@ -17,7 +17,7 @@ const SIDES: &[&str] = &["width", "w", "height", "h", "depth", "length"];
 
 /// What is said of such a field; `None`: it is another one.
 pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
-    let of_shape = plane(unknown).or_else(|| ends(unknown)).or_else(|| across(unknown));
+    let of_shape = plane(unknown).or_else(|| numbered(unknown)).or_else(|| ends(unknown)).or_else(|| across(unknown));
     of_shape
         .or_else(|| geometry(unknown))
         .or_else(|| listed(unknown))
@@ -149,6 +149,35 @@ fn unit(item: Item<'_, '_>) -> Option<[f64; 3]> {
     let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
     let axis: [f64; 3] = axis.try_into().ok()?;
     (length > 0.0 && length.is_finite()).then(|| axis.map(|x| x / length))
+}
+
+/// Two ends that are counted from 1, `p1` and `p2`; counted from 0 they are `p0` and `p1`.
+fn numbered(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    const ENDS: [&[&str]; 2] = [&["p1", "point1", "end1", "v1"], &["p2", "point2", "end2", "v2"]];
+    let &Unknown { def, name, item, .. } = unknown;
+    let has_ends = def.field("from").and(def.field("to")).is_some();
+    if !has_ends || !ENDS.iter().any(|names| names.contains(&name)) || find(unknown, &["p0"]).is_some() {
+        return None;
+    }
+    let fields = &["from", "to"];
+    let write = |field: &str, (_, value): &Found<'_, '_>| Fields(item.syntax()).name(field) + value.lexeme();
+    let found: Vec<Found<'_, '_>> = ENDS.iter().filter_map(|names| find(unknown, names)).collect();
+    let free: Vec<&str> = fields.iter().copied().filter(|field| !is_written(unknown, field)).collect();
+    match (&found[..], &free[..]) {
+        ([first, last], [from, to]) => Some(told_at_first(unknown, &found, fields, || {
+            let mended = format!("{}, {}", write(from, first), write(to, last));
+            (format!("write `{}`", super::hinted(&mended)), Some(mended))
+        })),
+        ([only], [other]) => Some(told_at_first(unknown, &found, fields, || {
+            let mended = write(other, only);
+            (format!("write `{}`", super::hinted(&mended)), Some(mended))
+        })),
+        ([only], [from, to]) => {
+            let hint = format!("which end is it: `{}` or `{}`?", write(from, only), write(to, only));
+            Some(Together { hint: Some(hint), edit: None, fields: fields.to_vec() })
+        }
+        _ => None,
+    }
 }
 
 /// `from` and `to` of what is said by a middle or an end, a length and maybe an axis.

@@ -1,6 +1,6 @@
 //! Colours and points in the ways of other programs that are one fault with one way: bytes, alpha, texts of numbers.
 
-use super::elsewhere::{Fields, numbers, vector_elsewhere};
+use super::elsewhere::{Fields, VECTORS, numbers, vector_elsewhere};
 use super::value::{before_unit, expected_for, hex_color, is_picture};
 use super::{Reader, hinted, plain, shortened};
 use crate::codes;
@@ -25,28 +25,49 @@ pub(super) fn numbers_in_text(item: Item<'_, '_>, count: usize) -> Option<String
     all.then(|| if item.syntax() == Syntax::Ron { format!("({numbers})") } else { format!("[{numbers}]") })
 }
 
-/// What stands for a colour, as one is written here.
-pub(super) fn color(value: Item<'_, '_>) -> Option<String> {
-    let lexeme = value.lexeme();
-    match value.kind() {
-        Kind::Text | Kind::Word if let Some(hex) = named_color(&value.text()) => Some(format!("\"{hex}\"")),
-        Kind::Text if hex_color(&value.text()).is_some() => Some(lexeme.to_owned()),
-        Kind::Text if is_picture(&value.text()) => {
-            let file = Fields(value.syntax()).name("file");
-            Some(match value.syntax() {
-                Syntax::Ron => format!("Texture({file}{lexeme})"),
-                syntax => syntax.of_toml(format!("{{ Texture = {{ file = {lexeme} }} }}")).into_owned(),
-            })
+impl Reader<'_> {
+    /// What a word for a colour means: a texture or a var of the scene that is called so, before any of CSS.
+    pub(super) fn color_by_name(&self, item: Item<'_, '_>) -> Option<String> {
+        let word = item.text();
+        match item.kind() {
+            Kind::Text | Kind::Word if self.knows_texture(&word) => Some(crate::print::text(&word, item.syntax())),
+            _ => self.constant_by_name(item),
         }
-        Kind::Integer | Kind::Float => {
-            value.number().is_some_and(|grey| (0.0..=1.0).contains(&grey)).then(|| lexeme.to_owned())
+    }
+
+    /// The same where no texture can stand.
+    pub(crate) fn constant_by_name(&self, item: Item<'_, '_>) -> Option<String> {
+        let word = item.text();
+        match item.kind() {
+            Kind::Text | Kind::Word if self.knows_var(&word) => Some(format!("\"={word}\"")),
+            Kind::Text | Kind::Word => named_color(&word).map(|hex| format!("\"{hex}\"")),
+            _ => None,
         }
-        Kind::Tuple | Kind::List if value.name().is_none() => {
-            let numbers = numbers(value).filter(|numbers| numbers.len() == 3)?;
-            numbers.iter().all(|n| (0.0..=1.0).contains(&decode::number(n))).then(|| lexeme.to_owned())
+    }
+
+    /// What stands for a colour, as one is written here.
+    pub(super) fn color(&self, value: Item<'_, '_>) -> Option<String> {
+        let lexeme = value.lexeme();
+        match value.kind() {
+            Kind::Text | Kind::Word if let Some(color) = self.color_by_name(value) => Some(color),
+            Kind::Text if hex_color(&value.text()).is_some() => Some(lexeme.to_owned()),
+            Kind::Text if is_picture(&value.text()) => {
+                let file = Fields(value.syntax()).name("file");
+                Some(match value.syntax() {
+                    Syntax::Ron => format!("Texture({file}{lexeme})"),
+                    syntax => syntax.of_toml(format!("{{ Texture = {{ file = {lexeme} }} }}")).into_owned(),
+                })
+            }
+            Kind::Integer | Kind::Float => {
+                value.number().is_some_and(|grey| (0.0..=1.0).contains(&grey)).then(|| lexeme.to_owned())
+            }
+            Kind::Tuple | Kind::List if value.name().is_none() => {
+                let numbers = numbers(value).filter(|numbers| numbers.len() == 3)?;
+                numbers.iter().all(|n| (0.0..=1.0).contains(&decode::number(n))).then(|| lexeme.to_owned())
+            }
+            Kind::Tuple | Kind::Struct if value.name().is_some_and(is_texture) => Some(lexeme.to_owned()),
+            _ => None,
         }
-        Kind::Tuple | Kind::Struct if value.name().is_some_and(is_texture) => Some(lexeme.to_owned()),
-        _ => None,
     }
 }
 
@@ -61,50 +82,60 @@ pub(super) fn metal(name: &str, item: Item<'_, '_>) -> Option<String> {
     Some(format!("the metal is a material: {conductor}; a colour like it is written {color}"))
 }
 
+/// Channels of bytes, of which none is more, would be nearly black.
+const LITTLE: f64 = 20.0;
+
 /// The names of a surface's colour elsewhere.
 const COLORS: [&str; 11] =
     ["color", "colour", "albedo", "rgb", "diffuse", "base_color", "texture", "map", "diffuse_color", "pigment", "hex"];
 
-/// The colour of `{ color: (1, 0, 0) }`, which is nothing but that.
-fn only_color(item: Item<'_, '_>) -> Option<String> {
-    let mut fields = item.fields();
-    let (key, value) = fields.next().filter(|_| fields.next().is_none())?;
-    // What has a header of its own in TOML is not in one piece.
-    let whole = item.lexeme().starts_with(['{', '(']) && COLORS.contains(&&*key.text());
-    color(value).filter(|_| whole)
+impl Reader<'_> {
+    /// The colour of `{ color: (1, 0, 0) }`, which is nothing but that.
+    fn only_color(&self, item: Item<'_, '_>) -> Option<String> {
+        let mut fields = item.fields();
+        let (key, value) = fields.next().filter(|_| fields.next().is_none())?;
+        // What has a header of its own in TOML is not in one piece.
+        let whole = item.lexeme().starts_with(['{', '(']) && COLORS.contains(&&*key.text());
+        self.color(value).filter(|_| whole)
+    }
+
+    /// `{ color: (1, 0, 0) }` where a material stands: what to do, and the edit.
+    pub(super) fn color_as_material(
+        &self,
+        item: Item<'_, '_>,
+        def: &'static EnumDef,
+    ) -> Option<(String, Option<Edit>)> {
+        if def.noun != "material" {
+            return None;
+        }
+        if let Some(color) = self.only_color(item) {
+            let replacement = diffuse(&color, item.syntax());
+            return Some((format!("write {}", hinted(&replacement)), Some(Edit { span: item.span(), replacement })));
+        }
+        let mut fields = item.fields();
+        let (key, value) = fields.next().filter(|_| fields.next().is_none())?;
+        let color = self.color(value).filter(|_| COLORS.contains(&&*key.text()))?;
+        let header = Some(item.lexeme()).filter(|header| header.starts_with('['))?;
+        let path = header.trim_matches(['[', ']']);
+        Some((format!("below [{path}.Diffuse] write albedo = {color}"), None))
+    }
+
+    /// The field of a material for the colour of an object: what is written is no list of colours of points.
+    pub(super) fn color_of_object(&self, name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<String> {
+        if def.field("material").is_none() || def.field(name).is_some() || !COLORS.contains(&name) {
+            return None;
+        }
+        let material = diffuse(&self.color(value)?, value.syntax());
+        Some(format!("{}{material}", Fields(value.syntax()).name("material")))
+    }
 }
 
-/// `{ color: (1, 0, 0) }` where a material stands: what to do, and the edit.
-pub(super) fn color_as_material(item: Item<'_, '_>, def: &'static EnumDef) -> Option<(String, Option<Edit>)> {
-    if def.noun != "material" {
-        return None;
-    }
-    if let Some(color) = only_color(item) {
-        let replacement = diffuse(&color, item.syntax());
-        return Some((format!("write {}", hinted(&replacement)), Some(Edit { span: item.span(), replacement })));
-    }
-    let mut fields = item.fields();
-    let (key, value) = fields.next().filter(|_| fields.next().is_none())?;
-    let color = color(value).filter(|_| COLORS.contains(&&*key.text()))?;
-    let header = Some(item.lexeme()).filter(|header| header.starts_with('['))?;
-    let path = header.trim_matches(['[', ']']);
-    Some((format!("below [{path}.Diffuse] write albedo = {color}"), None))
-}
-
-fn diffuse(color: &str, syntax: Syntax) -> String {
+/// A material of this colour.
+pub(super) fn diffuse(color: &str, syntax: Syntax) -> String {
     match syntax {
         Syntax::Ron => format!("Diffuse(albedo: {color})"),
         syntax => syntax.of_toml(format!("{{ Diffuse = {{ albedo = {color} }} }}")).into_owned(),
     }
-}
-
-/// The field of a material for the colour of an object: what is written is no list of colours of points.
-pub(super) fn color_of_object(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<String> {
-    if def.field("material").is_none() || def.field(name).is_some() || !COLORS.contains(&name) {
-        return None;
-    }
-    let material = diffuse(&color(value)?, value.syntax());
-    Some(format!("{}{material}", Fields(value.syntax()).name("material")))
 }
 
 /// Whether the scene has a material of this name. Values are read before materials are.
@@ -117,21 +148,47 @@ fn is_name_of_material(item: Item<'_, '_>, name: &str) -> bool {
 impl Reader<'_> {
     /// Channels from 0 to 255, `(208, 58, 43)`, which are reported once.
     pub(super) fn bytes_as_color(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
-        if !at.rule.color || at.rule.range.high != 1.0 {
+        let name = item.name().map(str::to_ascii_lowercase);
+        let is_color = name.as_deref().is_none_or(|name| VECTORS.contains(&name));
+        if !at.rule.color || !is_color || !matches!(item.kind(), Kind::List | Kind::Tuple) {
             return false;
         }
         let Some(channels) = numbers(item).filter(|numbers| numbers.len() == 3) else { return false };
         let values: Vec<f64> = channels.iter().map(|number| decode::number(number)).collect();
         let bytes = values.iter().all(|value| value.fract() == 0.0 && (0.0..=255.0).contains(value));
-        if !bytes || values.iter().all(|value| *value <= 2.0) {
+        let most = values.iter().copied().fold(0.0, f64::max);
+        let is_share = at.rule.range.high == 1.0;
+        // Of light there may be more than 1, in a vector as much as there is.
+        if !bytes || is_share && most <= 2.0 || !is_share && (name.is_none() || most <= LITTLE) {
             return false;
         }
         let hex: String = values.iter().map(|value| format!("{:02x}", *value as u8)).collect();
+        if !is_share {
+            let message = format!("{} cannot be {}", plain(at.noun), super::describe(item));
+            let light = super::elsewhere::vector(item, &channels);
+            self.report(
+                Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+                    .expected(expected_for(at, item))
+                    .hint(format!("write \"#{hex}\" for a colour of bytes, or {light} for so much light")),
+            );
+            return true;
+        }
+        let percents = most <= 100.0 && values.iter().all(|value| value % 5.0 == 0.0);
+        let is_certain = most > LITTLE && !percents;
+        if is_certain && name.is_some() {
+            self.wrong_kind::<()>(item, at.noun, &expected_for(at, item), Some(format!("\"#{hex}\"")));
+            return true;
+        }
         let message = format!("the channels of {} must be at most 1", plain(at.noun));
         let mut fault = Diagnostic::error(codes::OUT_OF_RANGE, item.span(), message)
             .expected(expected_for(at, item))
             .hint(format!("channels go from 0 to 1; of values up to 255 write \"#{hex}\""));
-        fault.edit = Some(Edit { span: item.span(), replacement: format!("\"#{hex}\"") });
+        if percents {
+            let shares: Vec<String> = values.iter().map(|value| format!("{}", value / 100.0)).collect();
+            let shares: Vec<&str> = shares.iter().map(|share| &**share).collect();
+            fault.hint = format!("{}, of percents {}", fault.hint, super::elsewhere::vector(item, &shares));
+        }
+        fault.edit = is_certain.then(|| Edit { span: item.span(), replacement: format!("\"#{hex}\"") });
         self.report(fault);
         true
     }
@@ -152,8 +209,9 @@ impl Reader<'_> {
             return false;
         }
         let mended = match item.kind() {
-            Kind::Struct | Kind::Map => super::elsewhere::channels(item).or_else(|| only_color(item)),
-            Kind::Word => named_color(item.lexeme()).map(|hex| format!("\"{hex}\"")),
+            Kind::Struct | Kind::Map => super::elsewhere::channels(item).or_else(|| self.only_color(item)),
+            Kind::Word if def.noun == "texture" => self.color_by_name(item),
+            Kind::Word => self.constant_by_name(item),
             _ => None,
         };
         let metal = Some(item).filter(|item| item.kind() == Kind::Word).and_then(|item| metal(item.lexeme(), item));

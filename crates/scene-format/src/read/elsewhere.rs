@@ -1,13 +1,12 @@
 //! Values as other programs and languages write them, and how they are written here: `vec3(0, 1, 6)`, `material: red`.
 
 use super::Reader;
-use super::colors_elsewhere::{color_of_object, numbers_in_text};
+use super::colors_elsewhere::numbers_in_text;
 use super::kinds_elsewhere::two_of_a_pattern;
 use super::pattern_fields::is_mapping;
 use super::shape_fields::one_ring;
 use super::value::{hex_color, is_picture};
 use crate::codes;
-use crate::css_colors::named_color;
 use crate::desc::{Material, is_texture};
 use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::expression::TEMPERATURES;
@@ -108,12 +107,14 @@ pub(super) fn axis(word: &str) -> Option<[&'static str; 3]> {
     }
 }
 
+/// Words before the numbers of a vector or a colour.
+pub(super) const VECTORS: [&str; 18] = [
+    "vec3", "vec2", "vec", "vector", "vector3", "vector2", "float3", "float2", "double3", "point", "point3", "normal",
+    "rgb", "srgb", "color", "colour", "color3", "tuple",
+];
+
 /// A vector or colour that is written in the way of another language: how it is written here.
 pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) -> Option<String> {
-    const WORDS: [&str; 18] = [
-        "vec3", "vec2", "vec", "vector", "vector3", "vector2", "float3", "float2", "double3", "point", "point3",
-        "normal", "rgb", "srgb", "color", "colour", "color3", "tuple",
-    ];
     if at.rule.color
         && count == 3
         && let Some(kelvin) = kelvin(item).filter(|kelvin| TEMPERATURES.contains(&decode::number(kelvin)))
@@ -129,13 +130,7 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
             if let ("hex" | "html" | "rgbhex", true, Some(hex)) = (&*name, at.rule.color, hex_of_call(item)) {
                 return Some(format!("\"#{hex}\""));
             }
-            let inner = numbers(item).filter(|numbers| numbers.len() == count && WORDS.contains(&name.as_str()))?;
-            let values: Vec<f64> = inner.iter().map(|number| decode::number(number)).collect();
-            let bytes = values.iter().all(|value| value.fract() == 0.0 && (0.0..=255.0).contains(value));
-            if at.rule.color && at.rule.range.high == 1.0 && bytes && values.iter().any(|value| *value > 1.0) {
-                let hex: String = values.iter().map(|value| format!("{:02x}", *value as u8)).collect();
-                return Some(format!("\"#{hex}\""));
-            }
+            let inner = numbers(item).filter(|numbers| numbers.len() == count && VECTORS.contains(&name.as_str()))?;
             Some(vector(item, &inner))
         }
         Kind::Struct | Kind::Map if item.syntax() == Syntax::Ron || item.lexeme().starts_with('{') => {
@@ -150,7 +145,6 @@ pub(super) fn vector_elsewhere(item: Item<'_, '_>, at: &FieldDef, count: usize) 
         Kind::Word | Kind::Text | Kind::Char if at.rule.direction && count == 3 => {
             axis(&item.text()).map(|axis| vector(item, &axis))
         }
-        Kind::Word if at.rule.color => named_color(item.lexeme()).map(|hex| format!("\"{hex}\"")),
         _ => None,
     }
 }
@@ -303,7 +297,6 @@ pub(super) fn field_elsewhere(
             let items = if is_list { value.lexeme().to_owned() } else { format!("[{}]", value.lexeme()) };
             Some((None, format!("{}{items}", name_of("items"))))
         }
-        _ if let Some(mended) = color_of_object(name, value, def) => Some((None, mended)),
         "resolution" | "size" | "dimensions" | "res" | "pixels" if def.name == "Image" => {
             let [width, height] = sides(value)?;
             Some((None, format!("{}{width}, {}{height}", name_of("width"), name_of("height"))))

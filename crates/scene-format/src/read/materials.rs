@@ -1,5 +1,6 @@
 //! Materials by name, and who uses them.
 
+use super::colors_elsewhere::diffuse;
 use super::{Reader, Step, is_picture, make_room, shortened};
 use crate::codes;
 use crate::css_colors::named_color;
@@ -299,7 +300,7 @@ impl Reader<'_> {
         if item.kind() != Kind::Text || Material::DEF.variant(&text).is_some() {
             return false;
         }
-        let Some(mended) = told_by_name(&text, item.syntax()) else { return false };
+        let Some(mended) = self.of_its_name(&text, item) else { return false };
         let message = format!("a material cannot be {}", super::describe(item));
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
             .expected("a material, with its fields")
@@ -385,7 +386,7 @@ impl Reader<'_> {
                         Syntax::Toml => "[materials]",
                         Syntax::Json => "\"materials\"",
                     };
-                    format!("add it to {list}, or write the material here: {}", by_its_name(name, syntax))
+                    format!("add it to {list}, or write the material here: {}", self.by_its_name(name, item))
                 }
             };
         }
@@ -394,15 +395,21 @@ impl Reader<'_> {
     }
 }
 
-/// What is most likely meant by the name of a material: its colour, metal or kind of glass where the name tells it.
-fn by_its_name(name: &str, syntax: Syntax) -> String {
-    told_by_name(name, syntax).unwrap_or_else(|| match syntax {
-        Syntax::Ron => "Diffuse(albedo: 0.5)".to_owned(),
-        syntax => syntax.of_toml("{ Diffuse = { albedo = 0.5 } }").into_owned(),
-    })
+impl Reader<'_> {
+    /// What is most likely meant by the name of a material: its colour, metal or kind of glass where the name tells it.
+    fn by_its_name(&self, name: &str, item: Item<'_, '_>) -> String {
+        self.of_its_name(name, item).unwrap_or_else(|| diffuse("0.5", item.syntax()))
+    }
+
+    /// The same, where the name is that of a texture or of a var, or tells it.
+    fn of_its_name(&self, name: &str, item: Item<'_, '_>) -> Option<String> {
+        let own = || self.color_by_name(item).map(|color| diffuse(&color, item.syntax()));
+        let is_own = self.knows_texture(name) || self.knows_var(name);
+        if is_own { own() } else { told_by_name(name, item.syntax()) }
+    }
 }
 
-/// The same, where a word of the name tells it.
+/// A material where a word of its name tells it.
 fn told_by_name(name: &str, syntax: Syntax) -> Option<String> {
     let word = |word: &str| {
         let clear = match word {

@@ -518,7 +518,7 @@ impl<'r> Reader<'r> {
             return None;
         }
         let of_fields = match item.name() {
-            None => item.kind() == Kind::Map,
+            None => matches!(item.kind(), Kind::Map | Kind::Struct),
             Some(name) => item.kind() == Kind::Struct && name.eq_ignore_ascii_case("transform"),
         };
         if at.name == "transform" && of_fields && !header {

@@ -56,7 +56,7 @@ impl Reader<'_> {
                 None => "0".to_owned(),
             };
             fault.hint = format!("write `Pick(from: {}, index: {index})`", shortened(first.lexeme()));
-        } else if let ([only], Some(color)) = (def.fields, super::colors_elsewhere::color(first))
+        } else if let ([only], Some(color)) = (def.fields, self.color(first))
             && only.kind.is_texture()
             && values.len() == 1
         {

@@ -45,14 +45,13 @@ impl Reader<'_> {
                     syntax => syntax.of_toml(steps.form_of_toml).into_owned(),
                 },
             );
-        if steps.in_radians {
-            fault = fault.hint(format!("angles are in degrees: if that is in radians, write {mended}"));
-        } else if steps.certain {
-            fault = fault.hint(format!("write {mended}"));
-            fault.edit = Some(Edit { span: item.span(), replacement: mended });
-        } else {
-            fault = fault.hint(format!("one step turns about one axis, as in {mended}"));
-        }
+        fault.hint = match steps.doubt {
+            None => format!("write {mended}"),
+            Some(Doubt::Radians) => format!("angles are in degrees: if that is in radians, write {mended}"),
+            Some(Doubt::Axis) => format!("{OR_AXIS} write {mended} with the degrees that it turns"),
+            Some(Doubt::Part) => format!("one step turns about one axis, as in {mended}"),
+        };
+        fault.edit = steps.doubt.is_none().then(|| Edit { span: item.span(), replacement: mended });
         self.report(fault);
         true
     }
@@ -96,8 +95,16 @@ impl Reader<'_> {
             Syntax::Ron => "a list: [Translate((x, y, z)), Rotate(axis: (x, y, z), degrees: ..)]",
             _ => "a list of transforms",
         };
-        let edit = steps_of_fields(item).or_else(|| each_by_itself(item));
-        self.wrong_kind(item, at.noun, expected, edit)
+        let Some((steps, doubt)) = steps_of_fields(item) else {
+            return self.wrong_kind(item, at.noun, expected, each_by_itself(item));
+        };
+        let message = format!("{} cannot be {}", super::plain(at.noun), super::describe(item));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
+        fault.hint = way_of_steps(&steps, doubt, item.syntax(), "");
+        let mended = listed(&steps, item.syntax());
+        fault.edit = doubt.is_none().then(|| Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        None
     }
 
     /// Numbers or fields where a placement stands, which is a list of transforms: reports it, and says that it did.
@@ -107,12 +114,12 @@ impl Reader<'_> {
             syntax => syntax.of_toml("[{ Translate = [x, y, z] }]"),
         };
         if matches!(item.kind(), Kind::Struct | Kind::Map) && item.name().is_none() {
-            let Some(mended) = steps_of_fields(item) else { return false };
+            let Some((steps, doubt)) = steps_of_fields(item) else { return false };
             let message = "a placement is a list of transforms, not a group of fields";
-            let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
-                .expected(expected)
-                .hint(format!("write {mended}"));
-            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected);
+            fault.hint = way_of_steps(&steps, doubt, item.syntax(), "");
+            let mended = listed(&steps, item.syntax());
+            fault.edit = doubt.is_none().then(|| Edit { span: item.span(), replacement: mended });
             self.report(fault);
             return true;
         }
@@ -145,21 +152,41 @@ impl Reader<'_> {
     }
 }
 
-/// `position: (0, 1, 0), rotation: (0, 45, 0)` as a list of transforms.
-fn steps_of_fields(item: Item<'_, '_>) -> Option<String> {
+/// `position: (0, 1, 0), rotation: (0, 45, 0)` as steps of a transform, in the order of most programs.
+fn steps_of_fields(item: Item<'_, '_>) -> Option<(Vec<Meant>, Option<Doubt>)> {
     let steps = item.fields().map(|(key, value)| {
         let name = key.text().to_ascii_lowercase();
         let three = numbers(value).and_then(|numbers| <[&str; 3]>::try_from(numbers).ok());
         Some(match (&*name, three) {
-            ("translate" | "translation" | "position" | "location" | "move", Some(by)) => vec![translation(by)],
-            ("scale", Some(by)) => vec![scaling(by)],
-            ("rotate" | "rotation" | "rotation_euler", Some(degrees)) => all_angles(degrees),
+            ("translate" | "translation" | "position" | "location" | "move", Some(by)) => (2, vec![translation(by)]),
+            ("scale", Some(by)) => (0, vec![scaling(by)]),
+            ("rotate" | "rotation" | "rotation_euler", Some(degrees)) => (1, all_angles(degrees)),
             _ => return None,
         })
     });
-    let steps: Option<Vec<Vec<Meant>>> = steps.collect();
-    let steps = steps.filter(|steps| steps.iter().flatten().all(|step| step.certain));
-    steps.map(|steps| listed(&steps.concat(), item.syntax()))
+    steps.collect::<Option<Vec<(u8, Vec<Meant>)>>>().map(in_order)
+}
+
+/// Steps in the order in which most programs take them: they scale, then turn, then move; and what is not sure of them.
+fn in_order(mut steps: Vec<(u8, Vec<Meant>)>) -> (Vec<Meant>, Option<Doubt>) {
+    steps.sort_by_key(|(place, _)| *place);
+    let steps: Vec<Meant> = steps.into_iter().flat_map(|(_, steps)| steps).collect();
+    let doubt = steps.iter().find_map(|step| step.doubt);
+    (steps, doubt)
+}
+
+/// What is said of steps that stand for fields, `name` being that of the field to write.
+fn way_of_steps(steps: &[Meant], doubt: Option<Doubt>, syntax: Syntax, name: &str) -> String {
+    let mark = if name.is_empty() { "" } else { "`" };
+    let mended = format!("{mark}{name}{}{mark}", listed(steps, syntax));
+    match doubt {
+        Some(Doubt::Radians) => format!("angles are in degrees: if these are in radians, write {mended}"),
+        Some(Doubt::Axis) => format!("{OR_AXIS} write {mended} with the degrees that it turns"),
+        _ if steps.windows(2).any(|two| two[0].kind != two[1].kind) => {
+            format!("write {mended}: a list is applied from first to last, and such fields scale, turn, then move")
+        }
+        _ => format!("write {mended}"),
+    }
 }
 
 /// One transform without its list, as it is written here within one: `[Translate((1, 0, 0))]`; `None` where it is
@@ -170,7 +197,7 @@ pub(super) fn lone_transform(item: Item<'_, '_>) -> Option<String> {
     let three = numbers(body).filter(|_| matches!(&*lower, "translate" | "move" | "translation"));
     let meant = match three.as_deref() {
         Some(&[x, y, z]) => translation([x, y, z]),
-        _ => meant_transform(&name, body).filter(|meant| meant.certain)?,
+        _ => meant_transform(&name, body).filter(|meant| meant.doubt.is_none())?,
     };
     Some(match item.syntax() {
         Syntax::Ron => format!("[{}({})]", meant.kind, meant.ron),
@@ -200,11 +227,23 @@ struct Meant {
     form_of_toml: &'static str,
     ron: String,
     toml: String,
-    /// Whether it is all that was meant.
-    certain: bool,
-    /// Whether an angle was taken for one in radians.
-    in_radians: bool,
+    /// What is not sure of it.
+    doubt: Option<Doubt>,
 }
+
+/// Why a transform may not be what was meant.
+#[derive(Clone, Copy)]
+enum Doubt {
+    /// It is not all that was meant.
+    Part,
+    /// An angle was taken for one in radians.
+    Radians,
+    /// `(0, 1, 0)` may be an angle for each axis, or an axis.
+    Axis,
+}
+
+/// What is asked of such numbers.
+const OR_AXIS: &str = "is that an axis, or an angle for each axis?";
 
 /// A number or an expression as it is written.
 fn one<'s>(item: Item<'_, 's>) -> Option<&'s str> {
@@ -288,8 +327,7 @@ fn matrix(rows: &str) -> Meant {
         form_of_toml: "{ Matrix = { rows = [[a, b, c, x], [d, e, f, y], [g, h, i, z]] } }",
         ron: format!("rows: {rows}"),
         toml: format!("{{ rows = {rows} }}"),
-        certain: true,
-        in_radians: false,
+        doubt: None,
     }
 }
 
@@ -331,7 +369,16 @@ fn listed(steps: &[Meant], syntax: Syntax) -> String {
 /// An angle for each axis, x first, as most programs turn: a step for each that is not zero.
 fn all_angles(degrees: [&str; 3]) -> Vec<Meant> {
     let turned = ["x", "y", "z"].into_iter().zip(degrees).filter(|(_, degrees)| decode::number(degrees) != 0.0);
-    turned.filter_map(|(letter, degrees)| Some(rotation(axis(letter)?, degrees, true))).collect()
+    let step = |(letter, angle): (&str, &str)| {
+        let step = rotation(axis(letter)?, angle, true);
+        Some(Meant { doubt: step.doubt.or(may_be_axis(degrees).then_some(Doubt::Axis)), ..step })
+    };
+    turned.filter_map(step).collect()
+}
+
+/// Whether three numbers may be an axis: as angles they are hardly any.
+fn may_be_axis(numbers: [&str; 3]) -> bool {
+    numbers.iter().all(|number| matches!(decode::number(number), -1.0 | 0.0 | 1.0))
 }
 
 /// What a field of other programs is among the steps of a transform, and at which place: most of them scale, then turn,
@@ -393,15 +440,11 @@ pub(super) fn placed(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
     if found.iter().any(|(other, _)| other.span().start < key.span().start) {
         return Some(Together { hint: None, edit: None, fields });
     }
-    steps.sort_by_key(|(place, _)| *place);
-    let steps: Vec<Meant> = steps.into_iter().flat_map(|(_, steps)| steps).collect();
-    let mended = format!("{}{}", Fields(item.syntax()).name("transform"), listed(&steps, item.syntax()));
-    if steps.iter().any(|step| step.in_radians) {
-        let hint = Some(format!("angles are in degrees: if these are in radians, write `{mended}`"));
-        return Some(Together { hint, edit: None, fields });
-    }
-    let hint = Some(format!("write `{mended}`"));
-    Some(Together { hint, edit: in_place_of(&found, item, mended), fields })
+    let (steps, doubt) = in_order(steps);
+    let name = Fields(item.syntax()).name("transform");
+    let hint = Some(way_of_steps(&steps, doubt, item.syntax(), &name));
+    let mended = || in_place_of(&found, item, name + &listed(&steps, item.syntax()));
+    Some(Together { hint, edit: doubt.is_none().then(mended).flatten(), fields })
 }
 
 /// An angle for each axis: one step where only one is not zero.
@@ -409,7 +452,8 @@ fn angles(degrees: [&str; 3]) -> Option<Meant> {
     let turned = |degrees: &str| decode::number(degrees) != 0.0;
     let count = degrees.iter().filter(|degrees| turned(degrees)).count();
     let at = degrees.iter().position(|degrees| turned(degrees))?;
-    Some(rotation(axis(["x", "y", "z"][at])?, degrees[at], count == 1))
+    let step = rotation(axis(["x", "y", "z"][at])?, degrees[at], count == 1);
+    Some(Meant { doubt: step.doubt.or(may_be_axis(degrees).then_some(Doubt::Axis)), ..step })
 }
 
 /// An angle that is no more than a turn in radians, and no whole number: as degrees.
@@ -434,8 +478,11 @@ fn rotation(axis: [&str; 3], angle: &str, certain: bool) -> Meant {
         form_of_toml: "{ Rotate = { axis = [x, y, z], degrees = .. } }",
         ron: format!("axis: ({axis}), degrees: {degrees}"),
         toml: format!("{{ axis = [{axis}], degrees = {degrees} }}"),
-        certain: certain && radians.is_none(),
-        in_radians: radians.is_some(),
+        doubt: match (radians, certain) {
+            (Some(_), _) => Some(Doubt::Radians),
+            (None, true) => None,
+            (None, false) => Some(Doubt::Part),
+        },
     }
 }
 
@@ -448,8 +495,7 @@ fn translation(by: [&str; 3]) -> Meant {
         form_of_toml: "{ Translate = [x, y, z] }",
         ron: format!("({by})"),
         toml: format!("[{by}]"),
-        certain: true,
-        in_radians: false,
+        doubt: None,
     }
 }
 
@@ -462,8 +508,7 @@ fn scaling(factors: [&str; 3]) -> Meant {
         form_of_toml: "{ Scale = factor } or { Scale = [x, y, z] }",
         ron: format!("({factors})"),
         toml: format!("[{factors}]"),
-        certain: true,
-        in_radians: false,
+        doubt: None,
     }
 }
 

@@ -136,7 +136,9 @@ impl Reader<'_> {
             return Meant::Unreadable(together.fields);
         }
         let of_sphere = || elsewhere::by_radii(name, value, item, def);
-        if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def).or_else(of_sphere) {
+        let of_color = || self.color_of_object(name, value, def).map(|mended| (None, mended));
+        if let Some((meant, mended)) = elsewhere::field_elsewhere(name, value, def).or_else(of_sphere).or_else(of_color)
+        {
             return self.written_otherwise(fault, unknown, mistyped, (meant, mended));
         }
         if let Some((hint, edit)) = typed::kind_as_list(name, value, def) {

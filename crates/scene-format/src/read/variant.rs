@@ -166,7 +166,7 @@ impl Reader<'_> {
         } else if matches!(item.kind(), Kind::Map) && item.fields().next().is_none() && def.noun == "object" {
             fault.message = "these braces are empty: an object is a kind with its fields".to_owned();
             fault.hint = "write Sphere(center: (0, 0, 0), radius: 1), say".to_owned();
-        } else if let Some((hint, edit)) = super::colors_elsewhere::color_as_material(item, def) {
+        } else if let Some((hint, edit)) = self.color_as_material(item, def) {
             (fault.hint, fault.edit) = (hint, edit);
         } else if matches!(item.kind(), Kind::Struct | Kind::Map) {
             // The fields alone, without the name of the kind: say which kind has them.

@@ -94,6 +94,9 @@ impl Reader<'_> {
             return self.numbers_of(&value?, item, at, names);
         }
         let is_vector = matches!(item.kind(), Kind::List | Kind::Tuple) && item.name().is_none();
+        if N == 3 && self.bytes_as_color(item, at) {
+            return None;
+        }
         if !is_vector {
             if at.name == "radiance" && is_of_texture(item) {
                 self.report(texture_as_amount(item, at));
@@ -113,11 +116,9 @@ impl Reader<'_> {
                 self.report(fault.expected(expected_for(at, item)).hint(way));
                 return None;
             }
-            let edit = elsewhere::vector_elsewhere(item, at, N);
+            let by_name = || self.constant_by_name(item).filter(|_| at.rule.color && item.kind() == Kind::Word);
+            let edit = elsewhere::vector_elsewhere(item, at, N).or_else(by_name);
             return self.wrong_kind(item, at.noun, &expected_for(at, item), edit);
-        }
-        if N == 3 && self.bytes_as_color(item, at) {
-            return None;
         }
         let mut children = item.children();
         let first: [Option<Item<'_, '_>>; N] = std::array::from_fn(|_| children.next());
@@ -163,7 +164,12 @@ impl Reader<'_> {
             fault.edit = Some(Edit { span: item.span(), replacement: inner.lexeme().to_owned() });
         } else if let Some(mended) = with_decimal_points(item, right) {
             fault = fault.hint(format!("numbers have a decimal point: {mended}"));
-            fault.edit = Some(Edit { span: item.span(), replacement: mended });
+            // One comma alone without a blank may be a slip: `(1,0, 0, 1)`.
+            let is_certain = count > right + 1;
+            fault.edit = is_certain.then(|| Edit { span: item.span(), replacement: mended });
+            if let Some(opaque) = colors_elsewhere::without_alpha(item, at, right) {
+                fault.hint = format!("{}; or, without an alpha, {opaque}", fault.hint);
+            }
         } else if let Some(mended) = colors_elsewhere::without_alpha(item, at, right) {
             fault = fault.hint(format!("colours have no alpha here: write {mended}"));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });

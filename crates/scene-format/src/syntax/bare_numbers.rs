@@ -48,13 +48,18 @@ pub(super) fn report(
                 return None;
             }
             let mended = format!("{whole}.{fraction}");
+            // `1,024`: whether that is a thousand nobody knows.
+            let of_thousands = fraction.len() == 3 && !whole.starts_with('0');
             let mut fault = Diagnostic::error(codes::BAD_NUMBER, found, format!("`{numbers}` is not a number"))
                 .expected(match syntax {
                     Syntax::Json => "a number such as 3, -0.25 or 1.5e3",
                     Syntax::Ron | Syntax::Toml => "a number such as 3, -0.25, 1.5e3 or 1_000",
                 })
-                .hint(format!("numbers have a decimal point: {mended}"));
-            fault.edit = Some(Edit { span: found, replacement: mended });
+                .hint(match of_thousands {
+                    true => format!("numbers have no commas: write {whole}{fraction}, or {mended}"),
+                    false => format!("numbers have a decimal point: {mended}"),
+                });
+            fault.edit = (!of_thousands).then_some(Edit { span: found, replacement: mended });
             fault
         }
         _ => {
