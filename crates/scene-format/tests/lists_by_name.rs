@@ -45,6 +45,16 @@ fn a_list_by_name_is_the_list() {
             "Mesh(points: \"=p\", faces: \"=f\", colors: \"=c\")",
             format!("Mesh(points: {POINTS}, faces: [[0, 1, 2]], colors: [\"#ff0000\", (0, 1, 0), (0, 0, 1)])"),
         ),
+        (
+            format!("\"p\": {POINTS}, \"c\": [0.1, 0.2, 0.3]"),
+            "Mesh(points: \"=p\", faces: [[0, 1, 2]], colors: \"=c\")",
+            format!("Mesh(points: {POINTS}, faces: [[0, 1, 2]], colors: [0.1, 0.2, 0.3])"),
+        ),
+        (
+            "\"m\": [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0]]".to_owned(),
+            "Box(transform: [Matrix(rows: \"=m\")])",
+            "Box(transform: [Matrix(rows: ((1, 0, 0, 5), (0, 1, 0, 0), (0, 0, 1, 0)))])".to_owned(),
+        ),
         // Of several lists, and within a repetition, whose own name hides the other.
         (
             format!("\"p\": {POINTS}, \"all\": [\"=p\", \"=p\"]"),
@@ -104,6 +114,15 @@ fn what_is_wrong_with_such_a_list_is_told_once() {
         ("\"p\": [(0, 0), (1, 0), (1, 1)]", "Polygon(points: \"=p\")", "", None),
         ("\"p\": [(0, 0, 0), (1, 0, 0)]", "Polygon(points: \"=p\")", "", None),
         ("\"p\": [(0, 0)]", "Lathe(profile: \"=q\")", "", None),
+        ("\"outer\": [(0, 0), (1, 1)]", "Lathe(profile: outre)", "did you mean \"=outer\"?", None),
+        ("\"f\": [0, 1, 2]", "Mesh(points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: \"=f\")", "[\"=f\"]", None),
+        ("\"c\": [(0, 0, 0), (1, 0, 0)]", "Box(placements: \"=c\")", "[Repeat(count: \"=len(p)\"", None),
+        (
+            "\"c\": [(0, 0, 0), (1, 0, 0)]",
+            "Repeat(count: 2, items: [Box(center: Pick(from: \"=c\", index: \"=i\"))])",
+            "\"=c[i]\"",
+            None,
+        ),
     ] {
         let text = scene(vars, object);
         match read(&text, Syntax::Ron) {
@@ -117,4 +136,15 @@ fn what_is_wrong_with_such_a_list_is_told_once() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// All items stand at one place: which is wrong is said.
+#[test]
+fn the_item_that_is_wrong_is_told() {
+    let text = scene(
+        &format!("\"p\": {POINTS}, \"c\": [1, 0.5, 3]"),
+        "Mesh(points: \"=p\", faces: [[0, 1, 2]], colors: \"=c\")",
+    );
+    let faults = read(&text, Syntax::Ron).expect_err("a colour is too bright");
+    assert!(matches!(&*faults, [only] if only.message.ends_with("(item 2 of the list, from 0)")), "{faults:#?}");
 }

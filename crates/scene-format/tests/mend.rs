@@ -193,6 +193,18 @@ fn what_may_mean_two_things_is_told_and_not_mended() {
         ("Box(transform: [Rotate((0, 1, 0))])", "write Rotate(axis: (0, 1, 0), degrees: 1) with the degrees"),
         ("Box(transform: (scale: (1, 2, 1), rotate: (0, 0, 1)))", "is that an axis, or an angle for each axis?"),
         ("Sphere(radius: 1,024)", "write 1024, or 1.024"),
+        // Kinds of other programs, as they are written here.
+        ("Box(material: Emission(strength: 5))", "`Emissive(radiance: 5)`"),
+        ("Box(material: Emission(color: (1, 0.9, 0.8)))", "`Emissive(radiance: 5, color: (1, 0.9, 0.8))`"),
+        ("BoxGeometry(1, 2, 3)", "`Box(size: (1, 2, 3))`"),
+        ("BoxGeometry(width: 1, height: 2, depth: 3)", "`Box(size: (1, 2, 3))`"),
+        ("PlaneGeometry(width: 1, height: 2)", "`Rectangle(size: (1, 2))`"),
+        ("IcoSphere(radius: 2, subdivisions: 3)", "`Sphere(radius: 2)`"),
+        (
+            "Trianglemesh(P: [0, 0, 0, 1, 0, 0], indices: [0, 1, 2])",
+            "(points: [(0, 0, 0), (1, 0, 0)], faces: [[0, 1, 2]]",
+        ),
+        ("Box(material: MeshStandardMaterial(color: 0xff0000, roughness: 0.5))", "BlinnPhong(albedo: \"#ff0000\""),
     ] {
         let text = with_object(&format!("        {object},"));
         check(&text, Syntax::Ron, way, &mut wrong);
@@ -249,6 +261,22 @@ fn comments_are_kept() {
     }
 }
 
+/// What surrounds objects, and comments in lists.
+#[test]
+fn backgrounds_cameras_and_comments_of_others_are_mended() {
+    let scene = |rest: &str| format!("Scene({rest}, objects: [Box()])");
+    for (written, right) in [
+        ("background: rgb(0.1, 0.2, 0.3)", "background: (0.1, 0.2, 0.3)"),
+        ("background: '#ff0000'", "background: \"#ff0000\""),
+        ("background: 1, camera: Camera(sensor: (36, 24))", "background: 1, camera: Camera(sensor_width: 36)"),
+    ] {
+        assert_eq!(mend("scene", &scene(written), Syntax::Ron, Path::new("")).text, scene(right));
+    }
+    let slashes = "background = 1\nobjects = [\n  // first\n  { Box = {} }, // second\n]\n";
+    let mended = mend("scene", slashes, Syntax::Toml, Path::new(""));
+    assert_eq!((mended.text, mended.changes.len()), (slashes.replace("//", "#"), 2));
+}
+
 /// Names of the scene's own go before those of CSS.
 #[test]
 fn own_names_are_meant_before_those_of_colors() {
@@ -288,6 +316,7 @@ fn what_is_said_in_one_way_is_mended() {
         ("Box(material: Diffuse(albedo: (64, 32, 16)))", "Box(material: Diffuse(albedo: \"#402010\"))"),
         ("Box(material: Diffuse(albedo: rgb(200, 25, 25)))", "Box(material: Diffuse(albedo: \"#c81919\"))"),
         ("Box(material: Emissive(radiance: rgb(5, 4, 3)))", "Box(material: Emissive(radiance: (5, 4, 3)))"),
+        ("Box(material: Diffuse(albedo: '#ff0000'))", "Box(material: Diffuse(albedo: \"#ff0000\"))"),
         ("Sphere(center: (1,5, 2,0, 3), radius: 1)", "Sphere(center: (1.5, 2.0, 3), radius: 1)"),
         (
             "Box(rotation: (0, 30, 1))",

@@ -1,6 +1,6 @@
 //! What is seen where no object is: the background, which is light, too.
 
-use super::{Color, LightGroup, Vec3};
+use super::{Color, LightGroup, Vec3, is_color};
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
@@ -116,6 +116,9 @@ impl Words for Background {
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         if let Some(mended) = reader.constant_by_name(item).filter(|_| item.kind() == Kind::Word) {
             return reader.wrong_kind(item, at.noun, "a colour, or a picture: Environment(file: ..)", Some(mended));
+        }
+        if item.name().is_some_and(|name| name.starts_with(char::is_lowercase) && is_color(name)) {
+            return Color::read(reader, item, at).map(Background::Color);
         }
         if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
             let BackgroundWords::Environment(environment) = BackgroundWords::read(reader, item, at)?;

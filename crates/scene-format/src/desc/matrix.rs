@@ -2,6 +2,7 @@
 
 use crate::codes;
 use crate::diagnostic::{Diagnostic, Edit};
+use crate::expression::Value;
 use crate::form::Form;
 use crate::read::{Reader, expected_for, hinted, is_expression};
 use crate::schema::{FieldDef, MIN_LENGTH, Rule, Type, is_rows};
@@ -34,6 +35,14 @@ impl Words for Rows {
     const TYPE: Type = Type::Rows;
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        let value = reader.expression(item);
+        if let Some(rows) = value.as_ref().and_then(|value| by_name(value.as_ref()?)) {
+            return whole(reader, item, rows);
+        }
+        // An expression that is wrong was told.
+        if let Some(None) = value {
+            return None;
+        }
         if !is_listed(item) {
             return reader.wrong_kind(item, at.noun, &expected_for(at, item), None);
         }
@@ -50,21 +59,36 @@ impl Words for Rows {
         }
         let rows = three.map(|row| reader.numbers(row, &ROW, NAMES));
         let [Some(a), Some(b), Some(c)] = rows else { return None };
-        let rows = [a, b, c];
-        if let Some(message) = fault(&rows) {
-            reader.report(
-                Diagnostic::error(codes::SINGULAR_TRANSFORM, item.head(), message)
-                    .expected("a matrix that can be undone: no scale of 0, no row made of the other two"),
-            );
-            return None;
-        }
-        Some(Rows(Box::new(rows)))
+        whole(reader, item, [a, b, c])
     }
 
     fn form(&self, _all: bool) -> Form {
         let row = |row: &[f64; 4]| Form::Vector(row.iter().map(|&x| Form::Number(x)).collect());
         Form::Vector(self.0.iter().map(row).collect())
     }
+}
+
+/// Rows that stand in `vars`: three lists of four numbers.
+fn by_name(value: &Value) -> Option<[[f64; 4]; 3]> {
+    let Value::List(list) = value else { return None };
+    let row = |row: &Value| -> Option<[f64; 4]> {
+        let Value::List(row) = row else { return None };
+        let number = |x: &Value| if let Value::Number(x) = x { Some(*x) } else { None };
+        row.items().iter().map(number).collect::<Option<Vec<f64>>>()?.try_into().ok()
+    };
+    list.items().iter().map(row).collect::<Option<Vec<_>>>()?.try_into().ok()
+}
+
+/// A matrix that can be undone; another is told.
+fn whole(reader: &mut Reader<'_>, item: Item<'_, '_>, rows: [[f64; 4]; 3]) -> Option<Rows> {
+    if let Some(message) = fault(&rows) {
+        reader.report(
+            Diagnostic::error(codes::SINGULAR_TRANSFORM, item.head(), message)
+                .expected("a matrix that can be undone: no scale of 0, no row made of the other two"),
+        );
+        return None;
+    }
+    Some(Rows(Box::new(rows)))
 }
 
 /// What is wrong with the numbers of a matrix.

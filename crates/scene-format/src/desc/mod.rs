@@ -76,7 +76,7 @@ pub use textures::{
     Texture, TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, Triplanar, Uv, VertexColor,
     VertexColorSpace, Voronoi, VoronoiFeature, Wood,
 };
-pub(crate) use textures::{MappingWords, Nested, PatternWords, is_texture};
+pub(crate) use textures::{MappingWords, Nested, PatternWords, is_color, is_texture};
 pub(crate) use transform::TransformWords;
 pub use transform::{Extent, Transform};
 pub use view::{Acceleration, Caustics, Image, Indirect, Integrator, Render, Reuse};

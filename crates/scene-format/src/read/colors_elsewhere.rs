@@ -39,8 +39,9 @@ impl Reader<'_> {
     pub(crate) fn constant_by_name(&self, item: Item<'_, '_>) -> Option<String> {
         let word = item.text();
         match item.kind() {
-            Kind::Text | Kind::Word if self.knows_var(&word) => Some(format!("\"={word}\"")),
-            Kind::Text | Kind::Word => named_color(&word).map(|hex| format!("\"{hex}\"")),
+            Kind::Text | Kind::Word | Kind::Char if self.knows_var(&word) => Some(format!("\"={word}\"")),
+            Kind::Char if hex_color(&word).is_some() => Some(format!("\"{word}\"")),
+            Kind::Text | Kind::Word | Kind::Char => named_color(&word).map(|hex| format!("\"{hex}\"")),
             _ => None,
         }
     }

@@ -271,6 +271,11 @@ pub(super) fn field_elsewhere(
             let number = value.number().is_some() || numbers(value).is_some();
             number.then(|| (Some("scale"), format!("{}{}", name_of("scale"), value.lexeme())))
         }
+        // Its width and its height.
+        "sensor" | "sensor_size" | "film_size" if def.name == "Camera" => {
+            let width = *numbers(value).filter(|sides| sides.len() == 2)?.first()?;
+            Some((Some("sensor_width"), format!("{}{width}", name_of("sensor_width"))))
+        }
         "diameter" => convert("radius", |d| d / 2.0),
         "step" | "distance" | "pitch" | "interval" if def.name == "Grid" && value.number().is_some() => {
             let spacing = vector(value, &[value.lexeme(); 3]);

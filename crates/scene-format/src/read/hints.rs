@@ -193,8 +193,7 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Nodes", &["traversal", "cost", "heatmap", "boxes"]),
     ];
     let plain = squeezed(name);
-    // `DiffuseBSDF`, `Glass BSDF`
-    let bare = plain.strip_suffix("bsdf").filter(|bare| !bare.is_empty() && def.noun == "material");
+    let bare = bare(&plain, def);
     let told = Material::TOLD.iter().chain(Object::TOLD).map(|(kind, others, _)| (kind, others));
     let mut all = SYNONYMS.iter().map(|(kind, others)| (kind, others)).chain(told);
     let same = |other: &str| squeezed(other) == plain || bare == Some(other);
@@ -203,6 +202,22 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
             && (others.iter().any(|other| same(other)) || bare.is_some_and(|b| same_word(kind, b)))
     });
     found.map(|(kind, _)| *kind)
+}
+
+/// A kind without what other programs put behind all: `DiffuseBSDF`, `Glass BSDF`, `BoxGeometry` of three.js.
+fn bare<'n>(plain: &'n str, def: &'static EnumDef) -> Option<&'n str> {
+    let bare = match def.noun {
+        "material" => plain.strip_suffix("bsdf")?,
+        "object" => plain.strip_suffix("geometry").map(|bare| bare.strip_suffix("buffer").unwrap_or(bare))?,
+        _ => return None,
+    };
+    match (def.noun, bare) {
+        (_, "") => None,
+        // It has an end there.
+        ("object", "plane") => Some("rectangle"),
+        ("object", "circle") => Some("disk"),
+        _ => Some(bare),
+    }
 }
 
 fn same_word(kind: &str, bare: &str) -> bool {

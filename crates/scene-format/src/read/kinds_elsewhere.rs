@@ -1,9 +1,10 @@
 //! Kinds of other programs as the nearest kind here, with what is said of them there.
 
-use super::elsewhere::Fields;
+use super::elsewhere::{Fields, numbers, vector};
 use super::pattern_fields::of_mapping;
 use super::synonyms::{squeezed, synonyms};
-use crate::schema::{Content, EnumDef, StructDef, VariantDef};
+use super::vector::in_groups;
+use crate::schema::{Content, EnumDef, FieldDef, StructDef, VariantDef};
 use crate::syntax::Syntax;
 use crate::tree::Item;
 
@@ -14,11 +15,12 @@ const MOST: usize = 16;
 /// would do for it as it stands.
 pub(super) fn needs(variant: &'static VariantDef, inner: Option<Item<'_, '_>>, syntax: Syntax) -> Option<String> {
     let (Content::Struct(fields), Some(inner)) = (&variant.content, inner) else { return None };
+    let in_a_row = of_sides(variant.name, inner).is_some();
     let written = |name: &str| inner.fields().any(|(key, _)| key.text() == name);
     let known = inner.fields().all(|(key, _)| fields.field(&key.text()).is_some());
     let all = fields.fields.iter().all(|field| field.default.is_some() || written(field.name));
     let one = fields.exactly_one.is_empty() || fields.exactly_one.iter().any(|name| written(name));
-    if known && all && one {
+    if known && all && one && !in_a_row {
         return None;
     }
     let (theirs, more) = with_values(variant.name, fields, inner);
@@ -40,10 +42,15 @@ fn written_kind(kind: &str, fields: &[(&str, String)], syntax: Syntax) -> String
 /// The fields of a kind with their values as another kind says them, and what more is to be said.
 fn with_values(kind: &str, def: &'static StructDef, inner: Item<'_, '_>) -> (Vec<(&'static str, String)>, String) {
     let (mut values, mut more): (Vec<(&'static str, String)>, String) = (Vec::new(), String::new());
+    if let Some(size) = of_sides(kind, inner) {
+        values.push(("size", size));
+    }
     for (key, value) in inner.fields().take(MOST) {
         let name = key.text();
         let ours = def.fields.iter().find(|field| field.name == name).map(|field| field.name);
-        let Some(field) = ours.or_else(|| synonyms(&name, def).first().copied()) else {
+        let shines = kind == "Emissive" && matches!(&*name, "strength" | "emission_strength" | "energy" | "brightness");
+        let of_light = shines.then_some("radiance");
+        let Some(field) = ours.or(of_light).or_else(|| synonyms(&name, def).first().copied()) else {
             if let (true, Some((hint, _))) = (more.is_empty(), of_mapping(&name, value, inner, def)) {
                 more = format!("; {hint}");
             }
@@ -53,9 +60,11 @@ fn with_values(kind: &str, def: &'static StructDef, inner: Item<'_, '_>) -> (Vec
             continue;
         };
         // Of a long value nobody reads all.
-        let short = value.lexeme().len() <= 40 && !value.lexeme().contains('\n');
+        let written = def.field(field).and_then(|at| as_ours(value, at));
+        let written = written.unwrap_or_else(|| value.lexeme().to_owned());
+        let short = written.len() <= 40 && !written.contains('\n');
         if values.iter().all(|(known, _)| *known != field) {
-            values.push((field, if short { value.lexeme().to_owned() } else { "..".to_owned() }));
+            values.push((field, if short { written } else { "..".to_owned() }));
         }
     }
     let has = |values: &[(&str, String)], field: &str| values.iter().any(|(known, _)| *known == field);
@@ -70,11 +79,35 @@ fn with_values(kind: &str, def: &'static StructDef, inner: Item<'_, '_>) -> (Vec
     }
     if !def.exactly_one.is_empty() && !def.exactly_one.iter().any(|field| has(&values, field)) {
         let of_file = def.exactly_one.iter().find(|name| **name == "file");
-        values.extend(of_file.or(def.exactly_one.last()).map(|field| (*field, "..".to_owned())));
+        let (field, value) = match kind {
+            "Emissive" => ("radiance", "5"),
+            _ => (*of_file.or(def.exactly_one.last()).unwrap_or(&""), ".."),
+        };
+        values.push((field, value.to_owned()));
     }
     let place = |field: &str| def.fields.iter().position(|known| known.name == field);
     values.sort_by_key(|(field, _)| place(field));
     (values, more)
+}
+
+/// A value that other programs write in another way.
+fn as_ours(value: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    let hexadecimal = value.lexeme().strip_prefix("0x").filter(|digits| at.rule.color && digits.len() == 6);
+    hexadecimal.map(|digits| format!("\"#{digits}\"")).or_else(|| in_groups(value, at))
+}
+
+/// The lengths of sides by their names or one after the other.
+fn of_sides(kind: &str, inner: Item<'_, '_>) -> Option<String> {
+    let names: &[&str] = match kind {
+        "Box" => &["width", "height", "depth"],
+        "Rectangle" => &["width", "height"],
+        _ => return None,
+    };
+    let find = |name: &&str| inner.fields().take(MOST).find(|(key, _)| key.text() == **name).map(|(_, side)| side);
+    let named: Option<Vec<&str>> =
+        names.iter().map(|name| find(name).filter(|side| side.number().is_some()).map(|side| side.lexeme())).collect();
+    let sides = named.or_else(|| numbers(inner).filter(|sides| sides.len() == names.len()))?;
+    Some(vector(inner, &sides))
 }
 
 /// The value of a field that has to be written, where one is as good as another.

@@ -45,15 +45,22 @@ fn of_one_word(at: &FieldDef, item: Item<'_, '_>) -> Option<String> {
     Some(if item.syntax() == Syntax::Ron { format!("[{word}]") } else { format!("[\"{word}\"]") })
 }
 
+/// What stands in round brackets as a list; a point alone is none.
+pub(super) fn in_square_brackets(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    let is_point = is_of_points_or_lists(&at.kind) && item.children().next()?.number().is_some();
+    let inner = item.lexeme().get(1..item.lexeme().len() - 1).filter(|_| !is_point)?;
+    Some(format!("[{inner}]"))
+}
+
 /// Whether a list is one of points or of rings of points.
 pub(super) fn is_of_points(at: &FieldDef) -> bool {
     let is_point = |kind: &Type| matches!(kind, Type::Pair | Type::Vector | Type::Number);
     matches!(at.kind, Type::List(of) if is_point(of) || matches!(of, Type::List(of) if is_point(of)))
 }
 
-/// Whether the items of a list are more than a number each.
+/// Whether the items of a list are more than a number each; a colour may be one, a grey.
 fn is_of_points_or_lists(kind: &Type) -> bool {
-    matches!(kind, Type::List(of) if !matches!(of, Type::Number | Type::Integer))
+    matches!(kind, Type::List(of) if !matches!(of, Type::Number | Type::Integer | Type::Color))
 }
 
 impl Reader<'_> {
@@ -70,8 +77,15 @@ impl Reader<'_> {
         if !is_expression(item) {
             // A name of `vars` without its sign.
             let name = item.text();
-            let known = matches!(item.kind(), Kind::Text | Kind::Word) && self.knows_var(&name);
-            if known {
+            let is_word = matches!(item.kind(), Kind::Text | Kind::Word) && at.name != "placements";
+            if let Some(near) = self.nearest_var(&name).filter(|near| is_word && **near != *name) {
+                let message = format!("{} cannot be {}", plain(at.noun), describe(item));
+                let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message);
+                let fault = fault.expected(super::value::expected_for(at, item));
+                self.report(fault.hint(format!("did you mean \"={near}\"?")));
+                return None;
+            }
+            if is_word && self.knows_var(&name) {
                 let (expected, _) = list_of_words(at, item);
                 return self.wrong_kind(item, at.noun, &expected, Some(format!("\"={name}\"")));
             }
@@ -83,6 +97,14 @@ impl Reader<'_> {
             // Two or three numbers are a pair or a vector there.
             Value::Pair(_) | Value::Triple(_) if !is_of_points_or_lists(&at.kind) => {
                 List::new(value.numbers().iter().map(|number| Value::Number(*number)).collect())?
+            }
+            // One point or one face where several are due.
+            Value::Pair(_) | Value::Triple(_) => {
+                let message = format!("{} cannot be {}", plain(at.noun), value.noun());
+                let fault = Diagnostic::error(codes::EXPRESSION_TYPE, item.span(), message);
+                let fault = fault.expected(super::value::expected_for(at, item));
+                self.report(fault.hint(format!("a list of this one is [{}]", item.lexeme())));
+                return None;
             }
             _ => return self.wrong_value(&value, item, at),
         };
@@ -96,7 +118,12 @@ impl Reader<'_> {
             }
             self.vars.element = Some((item.index() as u32, value.clone()));
             self.path.push(Step::Index(index));
+            let told = self.sink.diagnostics.len();
             read(self, item);
+            // All stand at one place: which one is wrong has to be said.
+            for fault in self.sink.diagnostics.iter_mut().skip(told) {
+                fault.message += &format!(" (item {index} of the list, from 0)");
+            }
             self.path.pop();
         }
         self.vars.element = around;

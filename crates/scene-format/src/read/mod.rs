@@ -530,7 +530,7 @@ impl<'r> Reader<'r> {
             Kind::Struct | Kind::Map | Kind::Tuple if item.name().is_some() || item.kind() == Kind::Map => {
                 transform().or_else(|| (!listed::is_of_points(at)).then(|| format!("[{lexeme}]")))
             }
-            Kind::Tuple => lexeme.get(1..lexeme.len() - 1).map(|inner| format!("[{inner}]")),
+            Kind::Tuple => listed::in_square_brackets(item, at),
             Kind::Text if matches!(at.kind, Type::List(Type::File)) => Some(format!("[{lexeme}]")),
             _ => None,
         };

@@ -13,7 +13,7 @@ pub(super) const OBJECTS: Hints = &[
          2)",
     ),
     (
-        &["pyramid", "tetrahedron", "octahedron", "icosahedron", "dodecahedron", "polyhedron", "icosphere", "loft"],
+        &["pyramid", "tetrahedron", "octahedron", "icosahedron", "dodecahedron", "polyhedron", "loft"],
         "its corners and faces may stand in the scene: Mesh(points: [(0, 1, 0), (-1, 0, -1), (1, 0, -1), (1, 0, 1), \
          (-1, 0, 1)], faces: [[0, 4, 3], [0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 3, 4]]), or in a file, \
          OBJ, OFF, PLY, STL, glTF or GLB: Mesh(file: \"a.obj\")",

@@ -1,6 +1,6 @@
 //! `Pick` in place of a value: one of several, by a number.
 
-use super::{Reader, Step};
+use super::{Reader, Step, is_expression};
 use crate::codes;
 use crate::diagnostic::Diagnostic;
 use crate::schema::{FieldDef, Rule, StructDef, Type};
@@ -84,6 +84,15 @@ impl Reader<'_> {
     }
 
     fn pick_from<'t, 's>(&mut self, from: Item<'t, 's>, index: Option<f64>) -> Option<Item<'t, 's>> {
+        if is_expression(from) {
+            let body = from.text().trim_start_matches('=').trim().to_owned();
+            let message = "the `from` of a pick cannot be an expression";
+            let fault = Diagnostic::error(codes::WRONG_TYPE, from.head(), message).expected("a list: [a, b, c]");
+            let index = self.indices.last().map_or("0", |(index, _)| &**index);
+            let way = format!("an item of a list in `vars` needs no pick: \"={body}[{index}]\"");
+            self.report(fault.hint(way));
+            return None;
+        }
         if from.kind() != Kind::List {
             return self.wrong_type(from, &PICK.fields[0], "a list: [a, b, c]");
         }

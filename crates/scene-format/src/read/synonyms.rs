@@ -126,7 +126,10 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("exponent", &["shininess", "alpha", "glossiness", "ns", "phong_size", "hardness", "specular_exponent"]),
     ("specular", &["ks", "phong", "specularity", "specular_color"]),
     ("transform", &["transforms", "trs", "transformation", "transformations"]),
-    ("points", &["vertices", "positions", "verts", "corners", "outline", "profile", "path", "spine", "centerline"]),
+    (
+        "points",
+        &["vertices", "positions", "verts", "p", "corners", "outline", "profile", "path", "spine", "centerline"],
+    ),
     ("faces", &["indices", "triangles", "polygons"]),
     ("inner_radius", &["innerradius", "inner", "hole"]),
     ("distance", &["max_distance", "maxdistance", "radius", "range", "ao_distance"]),

@@ -356,6 +356,12 @@ impl Reader<'_> {
         !self.vars.list.is_empty()
     }
 
+    /// The var whose name is most like this one.
+    pub(super) fn nearest_var(&self, name: &str) -> Option<Arc<str>> {
+        let known: Vec<&str> = self.vars.list.iter().map(|var| &*var.name).collect();
+        suggest::nearest(name, known).map(Arc::from)
+    }
+
     /// Whether there is a var of this name.
     pub(super) fn knows_var(&self, name: &str) -> bool {
         self.vars.find(name).is_some()

@@ -36,36 +36,48 @@ fn texture_as_amount(item: Item<'_, '_>, at: &'static FieldDef) -> Diagnostic {
     })
 }
 
+/// How many numbers each item of a list has, and what these are.
+fn of_groups(at: &FieldDef) -> Option<(usize, &'static str)> {
+    match at.kind {
+        Type::List(Type::Vector) => Some((3, "points")),
+        Type::List(Type::Pair) => Some((2, "points")),
+        Type::List(Type::List(Type::Integer)) => Some((3, "faces")),
+        _ => None,
+    }
+}
+
+fn group(numbers: &[&str], what: &str, syntax: Syntax) -> String {
+    match (syntax, what) {
+        (Syntax::Ron, "points") => format!("({})", numbers.join(", ")),
+        _ => format!("[{}]", numbers.join(", ")),
+    }
+}
+
+/// Numbers one after the other in brackets of their own, as the items of a list.
+pub(super) fn in_groups(item: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    // Of longer ones the hint is enough.
+    const MOST: usize = 300;
+    let (count, what) = of_groups(at)?;
+    let numbers: Option<Vec<&str>> =
+        item.children().take(MOST + 1).map(|child| child.number().map(|_| child.lexeme())).collect();
+    let all = numbers.filter(|all| !all.is_empty() && all.len() <= MOST && all.len() % count == 0)?;
+    let groups: Vec<String> = all.chunks(count).map(|numbers| group(numbers, what, item.syntax())).collect();
+    Some(format!("[{}]", groups.join(", ")))
+}
+
 impl Reader<'_> {
     /// Numbers one after the other where points or faces stand, `[0, 0, 0, 1, 0, 0]`: reports them once, and says that
     /// it did.
     pub(super) fn flat_list(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
-        // Of longer ones the hint is enough.
-        const MOST: usize = 300;
-        let (count, what) = match at.kind {
-            Type::List(Type::Vector) => (3, "points"),
-            Type::List(Type::Pair) => (2, "points"),
-            Type::List(Type::List(Type::Integer)) => (3, "faces"),
-            _ => return false,
-        };
+        let Some((count, what)) = of_groups(at) else { return false };
         if item.children().next().is_none_or(|first| first.number().is_none()) {
             return false;
         }
-        let numbers: Option<Vec<&str>> =
-            item.children().take(MOST + 1).map(|child| child.number().map(|_| child.lexeme())).collect();
-        let all = numbers.filter(|numbers| numbers.len() <= MOST && numbers.len() % count == 0);
-        let round = item.syntax() == Syntax::Ron && what == "points";
-        let group = |numbers: &[&str]| match round {
-            true => format!("({})", numbers.join(", ")),
-            false => format!("[{}]", numbers.join(", ")),
-        };
-        let mended =
-            all.map(|numbers| format!("[{}]", numbers.chunks(count).map(group).collect::<Vec<_>>().join(", ")));
         let names = ["a", "b", "c"];
         let message = format!("{} are {what}, {count} numbers each in brackets of their own", plain(at.noun));
         let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
-            .expected(format!("[{}, ..]", group(&names[..count])));
-        if let Some(mended) = mended {
+            .expected(format!("[{}, ..]", group(&names[..count], what, item.syntax())));
+        if let Some(mended) = in_groups(item, at) {
             fault = fault.hint(format!("write {}", super::hinted(&mended)));
             fault.edit = Some(Edit { span: item.span(), replacement: mended });
         }
@@ -116,7 +128,9 @@ impl Reader<'_> {
                 self.report(fault.expected(expected_for(at, item)).hint(way));
                 return None;
             }
-            let by_name = || self.constant_by_name(item).filter(|_| at.rule.color && item.kind() == Kind::Word);
+            let by_name = || {
+                self.constant_by_name(item).filter(|_| at.rule.color && matches!(item.kind(), Kind::Word | Kind::Char))
+            };
             let edit = elsewhere::vector_elsewhere(item, at, N).or_else(by_name);
             return self.wrong_kind(item, at.noun, &expected_for(at, item), edit);
         }

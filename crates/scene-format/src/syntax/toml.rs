@@ -72,18 +72,7 @@ impl Parser<'_> {
             match self.kind {
                 TokenKind::Eof => return,
                 _ if self.sink.is_full() => return,
-                _ if self.lexeme().starts_with("//") || self.lexeme().starts_with("/*") => {
-                    let found = self.range(self.span.start(), self.span.start() + 2);
-                    let mut fault = Diagnostic::error(
-                        codes::UNEXPECTED_CHARACTER,
-                        found,
-                        format!("comments begin with `#` in TOML, not `{}`", &self.lexeme()[..2]),
-                    )
-                    .hint("write `#`");
-                    fault.edit = Some(Edit { span: found, replacement: "#".to_owned() });
-                    self.sink.push(fault);
-                    self.skip_line();
-                }
+                _ if self.lexeme().starts_with("//") || self.lexeme().starts_with("/*") => self.foreign_comment(),
                 TokenKind::LeftSquareBracket => self.header(),
                 TokenKind::Equals => {
                     let found = self.found();
@@ -424,6 +413,16 @@ impl Parser<'_> {
         self.sink.push(
             Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, format!("`{lexeme}` cannot stand here")).hint(hint),
         );
+    }
+
+    /// `// ..`, as comments are written elsewhere.
+    pub(super) fn foreign_comment(&mut self) {
+        let found = self.range(self.span.start(), self.span.start() + 2);
+        let message = format!("comments begin with `#` in TOML, not `{}`", &self.lexeme()[..2]);
+        let mut fault = Diagnostic::error(codes::UNEXPECTED_CHARACTER, found, message).hint("write `#`");
+        fault.edit = Some(Edit { span: found, replacement: "#".to_owned() });
+        self.sink.push(fault);
+        self.skip_line();
     }
 
     /// White space, newlines and comments between statements.

@@ -341,6 +341,7 @@ impl Parser<'_> {
                         return self.unwind(Some(at));
                     }
                 }
+                _ if self.lexeme().starts_with("//") => self.foreign_comment(),
                 _ => return,
             }
         }

@@ -1,10 +1,11 @@
 //! Copies of an object.
 
 use super::PlacementPattern;
+use crate::codes;
 use crate::desc::{Transform, TransformWords};
-use crate::diagnostic::Spanned;
+use crate::diagnostic::{Diagnostic, Spanned};
 use crate::form::Form;
-use crate::read::{Reader, make_room};
+use crate::read::{Reader, is_expression, make_room};
 use crate::schema::{FieldDef, Type};
 use crate::tree::{Item, Kind};
 use crate::words::Words;
@@ -245,6 +246,14 @@ impl Words for Placements {
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
         match item.kind() {
+            Kind::Text if is_expression(item) => {
+                let way = "a Repeat makes copies by a list in `vars`, a step from each item: [Repeat(count: \
+                           \"=len(p)\", items: [[Translate(\"=p[i]\")]])]";
+                let message = "placements cannot be an expression: they are lists of transforms";
+                let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message);
+                reader.report(fault.expected("[[a transform, ..], ..]").hint(way));
+                None
+            }
             Kind::Text => <Spanned<Arc<Path>>>::read(reader, item, at).map(Placements::from),
             Kind::List => {
                 if reader.placements_elsewhere(item, at) {

@@ -30,7 +30,7 @@ scene_struct! {
 }
 
 impl Told for Sphere {
-    const ALSO: &'static [&'static str] = &["ball"];
+    const ALSO: &'static [&'static str] = &["ball", "icosphere", "uvsphere"];
     const EXAMPLE: &'static str = "Sphere(center: (0, 0, 0), radius: 1.2, material: Diffuse(albedo: 0.6))";
 }
 

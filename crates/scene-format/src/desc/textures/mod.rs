@@ -215,7 +215,7 @@ pub(crate) fn is_texture(name: &str) -> bool {
 }
 
 /// Whether a name before brackets is other languages' for a colour.
-fn is_color(name: &str) -> bool {
+pub(crate) fn is_color(name: &str) -> bool {
     ["rgb", "srgb", "color", "colour", "vec3", "float3", "hex"].iter().any(|known| name.eq_ignore_ascii_case(known))
 }
 
