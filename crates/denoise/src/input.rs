@@ -18,8 +18,8 @@ pub struct Input<'a> {
     /// What is seen of lamps themselves, linear RGB, in the halves' unit, as a mean over all their samples. There is no
     /// noise of light in it, so it is left as it is.
     pub lamps: &'a [f32],
-    /// Colour without light, textures included, in 0..=1, as either half has met it; one where nothing is hit, as what is
-    /// behind everything has no texture, and zero where that is not part of the picture.
+    /// Colour without light, textures included, in 0..=1, as either half has met it; one where nothing is hit, as what
+    /// is behind everything has no texture, and zero where that is not part of the picture.
     pub albedo: [&'a [f32]; 2],
     /// Shading normal; shorter than one where samples differ, zero where nothing is hit.
     pub normal: &'a [f32],

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 /// Albedos below are taken for this: what is nearly black is not made bright.
 pub const DARK: f32 = 0.002;
-/// Halves are divided by what each has met of a texture: what the one met more of it than the other is no noise of light.
-/// Where one of them has met less than this share of what both have, in any channel, it knows too little of light.
+/// Halves are divided by what each has met of a texture: what the one met more of it than the other is no noise of
+/// light. Where one of them has met less than this share of what both have, in any channel, it knows too little of it.
 const ENOUGH: f32 = 0.05;
 /// Radiance counts as this at most, in units of its mean: squares stay within single precision.
 const MOST: f32 = 1e12;
@@ -30,8 +30,8 @@ pub struct Prepared {
     pub albedo: Colours,
     /// What either half was divided by to be irradiance.
     pub divisors: [Colours; 2],
-    /// Of each pixel whether its halves know light by themselves; else they are apart by what they have met of a texture,
-    /// which says nothing of noise.
+    /// Of each pixel whether its halves know light by themselves; else they are apart by what they have met of a
+    /// texture, which says nothing of noise.
     pub knows: Vec<bool>,
     /// What is added then.
     pub lamps: Colours,

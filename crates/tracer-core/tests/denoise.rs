@@ -97,8 +97,8 @@ fn kept(text: &str) -> f64 {
 }
 
 /// White dots on black keep their light: black texels, which know nothing of the light on them, took 4.3 % from the
-/// pixels at their borders, and 0.4 % were still lost where the one half had met black alone; other seeds make less than
-/// a ten thousandth of difference. So do dark rods over nothing, which got 3.2 % from what they leave free.
+/// pixels at their borders, and 0.4 % were still lost where the one half had met black alone; other seeds make less
+/// than a ten thousandth of difference. So do dark rods over nothing, which got 3.2 % from what they leave free.
 #[test]
 fn patterns_and_thin_things_keep_their_light() {
     let dots = "Scene(camera: Camera(position: (0, 1.6, 5), look_at: (0, 0.5, 0), fov: 40), \

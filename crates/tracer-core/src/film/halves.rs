@@ -232,9 +232,9 @@ impl Film {
         [0, 1].map(|of| lamps[of].mean(pixel, samples[of]).map(|x| x * self.unit))
     }
 
-    /// The layer `denoising_albedo` of either half, where the film has it, else zero; without what is white where nothing
-    /// is hit, where the film keeps the background by itself ([`Film::has_backdrop`]): what is behind is not part of the
-    /// picture then, and thin dark things are divided by what they reflect, not by what they leave free.
+    /// The layer `denoising_albedo` of either half, where the film has it, else zero; without what is white where
+    /// nothing is hit, where the film keeps the background by itself ([`Film::has_backdrop`]): what is behind is not
+    /// part of the picture then, and thin dark things are divided by what they reflect, not by what they leave free.
     pub fn albedo_of_halves(&self, x: u32, y: u32) -> [[f64; 3]; 2] {
         let (tile, pixel) = self.place(x, y);
         let samples = self.samples_of_halves(x, y);

@@ -202,8 +202,19 @@ impl Film {
         if self.paper > 0.0 { light + self.paper * (1.0 - self.alpha(x, y)) } else { light }
     }
 
+    /// Which part of the pixels is looked at: where the picture will be laid over nothing that is known, what it
+    /// covers. Else a small thing before nothing would have more noise than one that fills the picture, as its mean
+    /// has that nothing in it.
+    fn covered(&self) -> f64 {
+        if !self.backdrop || self.paper > 0.0 {
+            return 1.0;
+        }
+        self.pixels().map(|(x, y)| self.alpha(x, y)).sum::<f64>() / self.count()
+    }
+
     /// Root mean square over the pixels of their standard error, relative to the mean luminance: the noise of the
-    /// picture as one number; where the background is kept by itself, of what is before it and what that is laid over.
+    /// picture as one number; where the background is kept by itself, of what is before it and what that is laid over,
+    /// over the pixels, and parts of such, that show anything of it.
     /// It is seen from how much pictures of other samples differ; of parts that were merged, and where something moves
     /// while the shutter is open, it is what independent samples would have, which is more. Zero where no pixel has two
     /// samples: nobody can tell.
@@ -219,7 +230,7 @@ impl Film {
             Some((seen, _)) => seen.max(independent()),
             None => independent(),
         };
-        if mean > 0.0 { variance.sqrt() / mean } else { 0.0 }
+        if mean > 0.0 { (variance * self.covered()).sqrt() / mean } else { 0.0 }
     }
 
     /// The few pixels without which the noise is a tenth or less of what it is; `None` where there are none such.
@@ -238,9 +249,10 @@ impl Film {
         let light = |&([x, y], _): &([u32; 2], f64)| self.mean_luminance(x, y);
         // Sums of their own: of differences nothing may be left but rounding.
         let mut sums = [others.iter().map(|(_, variance)| variance).sum(), others.iter().map(light).sum::<f64>()];
-        let mut count = others.len() as f64;
-        let noise =
-            |[variance, light]: [f64; 2], count: f64| if light > 0.0 { (variance * count).sqrt() / light } else { 0.0 };
+        let (mut count, covered) = (others.len() as f64, self.covered());
+        let noise = |[variance, light]: [f64; 2], count: f64| {
+            if light > 0.0 { (variance * count * covered).sqrt() / light } else { 0.0 }
+        };
         // Without the first k of them, for each k.
         let mut rests = vec![noise(sums, count)];
         for pixel in few.iter().rev() {

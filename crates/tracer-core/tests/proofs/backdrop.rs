@@ -63,6 +63,23 @@ fn noise_is_of_what_is_before_the_background() {
     assert_same(&of(0.0, paper()), &plain);
 }
 
+/// Nor does it depend on how much is free around what is seen: it was thrice as much where the frame is thrice as wide
+/// and high. A ball in as many pixels has the same noise; seven hundred tell it to a twentieth.
+#[test]
+fn noise_for_compositing_is_of_what_is_covered() {
+    let of = |size: u32, fov: f64| {
+        let objects = vec![sphere([0.0; 3], 1.0, diffuse([0.8; 3]))];
+        let mut desc =
+            scene(size, vec![light([2.0, 3.0, 4.0], 0.8, [9.0; 3])], objects).camera([0.0, 0.0, 6.0], [0.0; 3], fov);
+        desc.output = Output { alpha: true, ..Output::default() };
+        film(&compiled(&desc), 16, 3).relative_noise()
+    };
+    let fov = 28.0f64;
+    let wide = 2.0 * (3.0 * (0.5 * fov).to_radians().tan()).atan().to_degrees();
+    let [near, wide] = [of(48, fov), of(144, wide)];
+    assert!((wide / near - 1.0).abs() < 0.25, "{near} and {wide}");
+}
+
 fn pixels(film: &Film) -> impl Iterator<Item = (u32, u32)> + use<> {
     let [width, height] = film.size();
     (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))

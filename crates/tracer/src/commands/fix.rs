@@ -13,12 +13,13 @@ pub(super) fn fix(scene: &Path, syntax: Option<Syntax>, form: DiagnosticsForm, s
     if is_dash(scene) {
         return Err(Failure::wrong("--fix writes into files; standard input is none"));
     }
-    let Some(syntax) = syntax.or_else(|| Syntax::from_path(scene)) else {
-        let name = scene.display();
+    let syntax = syntax.or_else(|| Syntax::from_path(scene));
+    // First of all whether it is there, and no picture or mesh.
+    let (name, bytes) = read_text(scene, syntax)?;
+    let Some(syntax) = syntax else {
         let way = "name it .ron, .toml or .json, or say which it is with `--syntax ron`";
         return Err(Failure::wrong(format!("{name}: --fix writes into scenes, and this may be none: {way}")));
     };
-    let (name, bytes) = read_text(scene, Some(syntax))?;
     // What is no text has no edits; the check tells why.
     let Ok(before) = String::from_utf8(bytes) else { return Ok(()) };
     let mended = mend(&name, &before, syntax, scene.parent().unwrap_or(Path::new("")));

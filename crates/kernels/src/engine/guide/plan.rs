@@ -215,7 +215,8 @@ impl Pair {
                 (if apart { aim::OUTSIDE } else { aim::EVERYWHERE }, 2.0)
             }
         };
-        // What lies within a light, or close to a flat one, gets no more than what is as far from its middle as its rim.
+        // What lies within a light, or close to a flat one, gets no more than what is as far from its middle as its
+        // rim is.
         let sine = (caster.radius / distance.max(radius).max(caster.radius)).min(1.0);
         let sin2 = sine * sine;
         let cone = sin2 / (1.0 + (1.0 - sin2).sqrt());
