@@ -67,6 +67,9 @@ fn completed(argument: &str) -> Option<String> {
     let field = path.trim_end_matches('=').trim().rsplit('.').next()?;
     let hex = value.strip_prefix('#').is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_hexdigit()));
     let of_text = matches!(field, "material" | "file" | "placements" | "camera");
+    if let Some(quoted) = value::name_of_file(field, value) {
+        return Some(format!("{path}{quoted}"));
+    }
     let plain = value.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '/' | ' ' | '~'));
     let word = plain
         && value
@@ -128,7 +131,7 @@ fn apply_one(tree: &mut Tree<'_>, argument: &str, source: u16, sink: &mut Sink) 
     }
     ron::parse_from(argument, equals + 1, &mut builder, sink);
     if sink.errors > faults {
-        sink.diagnostics.iter_mut().skip(told).for_each(|fault| value::of_argument(fault, argument));
+        value::of_arguments(sink, told, argument);
         return Ok(());
     }
     if tree.nodes.is_empty() {
@@ -577,6 +580,8 @@ mod tests {
             ("materials.a.albedo=#ff0000", "materials.a.albedo=\"#ff0000\""),
             ("objects[1].material=gold", "objects[1].material=\"gold\""),
             ("objects[1].file=Models/cat.obj", "objects[1].file=\"Models/cat.obj\""),
+            ("objects.part.file=m/my part (v2).stl", "objects.part.file=\"m/my part (v2).stl\""),
+            ("objects.part.file=größe #2 \"a\".stl", "objects.part.file=\"größe #2 \\\"a\\\".stl\""),
             ("camera.position=1,2,-3", "camera.position=(1,2,-3)"),
             ("objects[1].material=Mirror()", "objects[1].material=Mirror()"),
             ("camera.fov=40", "camera.fov=40"),

@@ -282,6 +282,9 @@ fn first_tries_of_arguments() {
                power: 3)],";
     let cases = [
         (lit, "objects[0].name=foo", "write --set 'objects[0].name=\"foo\"'"),
+        (lit, "objects[0].name=my ball (1)", "write --set 'objects[0].name=\"my ball (1)\"'"),
+        (lit, "objects[0].material=white (matt)", "write --set 'objects[0].material=\"white (matt)\"'"),
+        (lit, "objects[0].name=it's #1", "write --set 'objects[0].name=\"it'\\''s #1\"'"),
         (lit, "lights[0].group=key", "write --set 'lights[0].group=\"key\"'"),
         (lit, "materials.white.albedo=a/b.png", "write --set 'materials.white.albedo=Texture(file: \"a/b.png\")'"),
         (lit, "include=style.ron", "write --set 'include=[\"style.ron\"]'"),

@@ -1,15 +1,29 @@
 //! What is said of a value of `--set` that cannot be read: it stands in no file, and in no scene; and how names are
 //! written in its path.
 
-use super::{Override, Step, What};
+use super::{Override, Step, What, end_of_path};
 use crate::codes;
 use crate::desc::Scene;
-use crate::diagnostic::{Diagnostic, Edit};
+use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
 use crate::read::{is_picture, shortened};
 use crate::schema::Type;
+use crate::syntax::Sink;
 
-/// A fault of a value, in words for a whole scene, in those for one value.
-pub(super) fn of_argument(fault: &mut Diagnostic, argument: &str) {
+/// Faults of a value, from this one on, in words for a whole scene, in those for one value.
+pub(super) fn of_arguments(sink: &mut Sink, told: usize, argument: &str) {
+    if let (Some(fault), Some((start, quoted))) = (sink.diagnostics.get_mut(told), whole_text(argument)) {
+        let span = Span { start: start as u32, end: argument.trim_end().len() as u32, ..fault.span };
+        fault.hint = format!("write {quoted}");
+        fault.edit = Some(Edit { span, replacement: quoted });
+        // The others are of the same text.
+        let others = sink.diagnostics.drain(told + 1..);
+        sink.errors -= others.filter(|fault| fault.severity == Severity::Error).count();
+        return;
+    }
+    sink.diagnostics.iter_mut().skip(told).for_each(|fault| of_argument(fault, argument));
+}
+
+fn of_argument(fault: &mut Diagnostic, argument: &str) {
     match fault.code {
         codes::TEXT_AFTER_END => {
             fault.message = "the value ended before this".to_owned();
@@ -42,6 +56,32 @@ pub(super) fn of_argument(fault: &mut Diagnostic, argument: &str) {
         }
         _ => {}
     }
+}
+
+/// A value of several words for a field that takes a text, `material=gold (matt)`: where it begins, and the whole of it
+/// between quotes.
+fn whole_text(argument: &str) -> Option<(usize, String)> {
+    const OF_TEXTS: [&str; 5] = ["name", "group", "material", "camera", "placements"];
+    let (path, value) = argument.split_at(end_of_path(argument)? + 1);
+    let field = path.trim_end_matches('=').trim().rsplit('.').next()?;
+    let start = argument.len() - value.trim_start().len();
+    let value = value.trim();
+    // What begins with a capital may be a kind that is not written right.
+    let is_kind = value.starts_with(char::is_uppercase) && !matches!(field, "name" | "group");
+    let is_text = value.starts_with(char::is_alphabetic) && value.contains(' ') && !is_kind;
+    (is_text && OF_TEXTS.contains(&field)).then(|| (start, quoted(value)))
+}
+
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+/// The name of a file between quotes. It may be any: it is a text however it is written, but for what RON has for texts.
+pub(super) fn name_of_file(field: &str, value: &str) -> Option<String> {
+    let is_name = value.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '.' | '/' | '~' | '_' | '#'));
+    let is_call = value.find(|c: char| !c.is_alphanumeric()).is_some_and(|at| value[at..].starts_with('('));
+    let is_raw = value.starts_with("r\"") || value.starts_with("r#");
+    (field == "file" && is_name && !is_raw && !(is_call && value.ends_with(')'))).then(|| quoted(value))
 }
 
 /// What the name of a file, between its quotes, is for a field that takes more than that.
