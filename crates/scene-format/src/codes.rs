@@ -463,7 +463,8 @@ codes! {
     NO_EXTENT "E0542" "a shape without extent";
     /// A `Union`, an `Intersection` or a `Difference` takes closed shapes: `Sphere`, `Box`, `Cylinder` and `Cone` with
     /// caps, `Capsule`, `Torus`, and each other. What is open has no inside; what is made of triangles, and groups,
-    /// cannot be part of one, nor can copies: `placements` of the whole make copies of it.
+    /// cannot be part of one, nor can copies: `placements` of the whole make copies of it. A mesh, a `Lathe` or an
+    /// `Extrude` is seen cut open by the camera's `near`: `camera: Camera(near: 4)` shows nothing that is nearer.
     ///
     /// ```ron
     /// Scene(background: 1, objects: [Difference(objects: [Box(size: 2), Disk(radius: 1)])])
@@ -537,7 +538,9 @@ codes! {
     /// Repetitions and includes make more than a scene can hold: ten million items, or more than eight within each
     /// other; groups stand more than sixteen deep, or a scene has more than a hundred million objects, copies counted;
     /// more than 256 files are included; or `vars` have more than sixteen lists within each other, or more than two
-    /// hundred wait for each other.
+    /// hundred wait for each other. Or a `Union`, an `Intersection` or a `Difference` is made of more than 64 shapes:
+    /// make several solids of it that stand side by side, each with the shapes that meet it (a wall of ten windows in
+    /// five pieces), or a mesh in another program.
     TOO_MUCH "E0606" "repetitions or vars that make too much";
     /// Arithmetic stands where a number may stand, without quotes. Expressions are texts that begin with `=`.
     ///

@@ -191,7 +191,11 @@ fn faults(objects: &Operands, noun: &str, span: Span) -> Vec<Diagnostic> {
     let count = count(objects);
     if count > MOST_OPERANDS {
         let message = format!("the {noun} is made of {count} shapes");
-        return vec![Diagnostic::error(codes::TOO_MUCH, span, message).expected(format!("{MOST_OPERANDS} at most"))];
+        let fault = Diagnostic::error(codes::TOO_MUCH, span, message).expected(format!("{MOST_OPERANDS} at most"));
+        return vec![fault.hint(
+            "make several of it that stand side by side, each with the shapes that meet it; or make a mesh of it in \
+             another program",
+        )];
     }
     let mut found = Vec::new();
     collect(objects, noun, span, &mut found);
@@ -276,7 +280,11 @@ fn unfit(object: &Object) -> Option<(String, &'static str)> {
             let kind = other.kind();
             let article = if kind.starts_with(['A', 'E']) { "an" } else { "a" };
             let message = format!("{article} `{kind}` is made of triangles, and cannot be part of a solid");
-            (message, "build it of such shapes, or let it stand beside the solid")
+            (
+                message,
+                "build it of such shapes, or let it stand beside the solid; a mesh is seen cut open by `near` of the \
+                 camera: what is nearer is not seen",
+            )
         }
     })
 }
