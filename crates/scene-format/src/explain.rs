@@ -102,9 +102,23 @@ pub fn explain_word(word: &str) -> Option<String> {
     if word.len() > 2 {
         forms.push(format!("{word}s"));
     }
+    if let Some(told) = word.split_once('.').and_then(|(of, field)| of_one(of, field, &pieces)) {
+        return Some(told);
+    }
     // `camera.fov`, as `--set` has it.
     forms.extend(word.rsplit_once('.').map(|(_, field)| field.to_owned()));
     forms.iter().find_map(|form| explained(form, &pieces))
+}
+
+/// `Sphere.radius`, a field of one thing alone.
+fn of_one(of: &str, field: &str, pieces: &[Piece<'_>]) -> Option<String> {
+    let piece = pieces.iter().find(|piece| called(piece.name).eq_ignore_ascii_case(of))?;
+    let mut rows = piece.lines.iter().filter_map(|line| row(line));
+    let [name, takes, default, means] = rows.find(|[name, ..]| name.eq_ignore_ascii_case(field))?;
+    let of = called(piece.name);
+    let mut told = format!("{name} of {of}: {takes}; {}.\n  {means}\n", said(&default));
+    lines::field(&name, of).iter().for_each(|line| told += &format!("  As in: {line}\n"));
+    Some(told)
 }
 
 fn explained(word: &str, pieces: &[Piece<'_>]) -> Option<String> {
@@ -249,6 +263,8 @@ mod tests {
         let sphere = explain_word("sphere").expect("a word");
         assert!(sphere.starts_with("Sphere, a kind of Object\n"), "{sphere}");
         assert!(sphere.contains("  radius: a length > 0") && !sphere.contains("| "), "{sphere}");
+        let one = explain_word("Sphere.radius").expect("a word");
+        assert!(one.starts_with("radius of Sphere: ") && !one.contains("SphereLight:"), "{one}");
         let radius = explain_word("radius").expect("a word");
         assert!(radius.contains("radius of Sphere: ") && radius.contains("radius of SphereLight: "), "{radius}");
         assert!(explain_word("Camera").expect("a word").contains("fov: "));
@@ -330,6 +346,13 @@ mod tests {
             ("ffmpeg", "-framerate"),
             ("bloom", "beyond its edge"),
             ("vignette", "corners"),
+            ("cutaway", "`camera: Camera(near: 4)`"),
+            ("variable", "`vars`"),
+            ("list", "len(sizes)"),
+            ("scale bar", "thin Box"),
+            ("thumbnail", "--size 160x120"),
+            ("shadow catcher", "there is none"),
+            ("radiosity", "max_bounces"),
         ] {
             let text = explain_word(word).unwrap_or_default();
             assert!(text.contains(told), "{word}: {text}");

@@ -47,6 +47,13 @@ fn shapes_and_their_fields() {
             "Align(from: (0, 0, 1), to: (0, 1, 0))",
         ),
         ("Rectangle(facing: (0, 0, 1))", "did you mean `normal`?"),
+        ("Sphere(d: 2)", "write `radius: 1`"),
+        ("Cylinder(from: (0, 0, 0), to: (0, 1, 0), d: 0.5)", "write `radius: 0.25`"),
+        ("Rectangle(u: (1, 0, 0))", "the two numbers of its `size`"),
+        ("Rectangle(corners: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])", "Polygon(points: [(0, 0, 0)"),
+        ("HeightField(file: \"a.png\", size: (2, 1, 2), scale: 0.5)", "the second number of its `size`"),
+        ("Difference(objects: [Lathe(profile: [(0, 0), (1, 0), (0, 1)]), Box()])", "`near` of the camera"),
+        ("Union(objects: [Repeat(count: 65, items: [Box(size: \"=i+1\")])])", "side by side"),
         ("Rectangle(up: (0, 0, 1))", "which way it faces is its `normal`"),
         ("Disk(axis: (0, 0, 1))", "did you mean `normal`?"),
         ("Rectangle(min: (0, 0, 0), max: (1, 0, 3))", "write `center: (0.5, 0, 1.5), normal: (0, 1, 0), size: (1, 3)`"),
@@ -110,6 +117,8 @@ fn materials_and_textures() {
             "Diffuse(albedo: Checker(a: 0.1, b: 0.9, size: 0.5))",
             "`Checkerboard(a: 0.1, b: 0.9)`; its `mapping` says how fine it is",
         ),
+        ("Diffuse(albedo: Wood(scale: 0.2))", "`mapping: Object(scale: 5)` for a pattern of 0.2 of the size"),
+        ("Diffuse(albedo: Marble(scale: (0.5, 1, 0.3)))", "`mapping: Object(scale: (2, 1, 3.333))`"),
         ("Diffuse(\"green\")", "write `Diffuse(albedo: \"#008000\")`"),
         ("Diffuse(specular: 0.5)", "BlinnPhong("),
         ("\"earth.png\"", "Diffuse(albedo: Texture(file: \"earth.png\"))"),
@@ -152,6 +161,11 @@ fn what_surrounds_objects() {
         ("gamma: 2.2", "pictures are sRGB"),
         ("effects: Effects(bloom: 1)", "nothing glows beyond its edge"),
         ("render: Render(bloom: true)", "nothing glows beyond its edge"),
+        ("radiosity: Radiosity(count: 100)", "is always there"),
+        ("background: 1, image: Image(transparent: true)", "`output: Output(alpha: true)`"),
+        ("background: 1, image: Image(film_transparent: true)", "`output: Output(alpha: true)`"),
+        ("background: \"transparent\"", "`output: Output(alpha: true)`"),
+        ("background: transparent", "`output: Output(alpha: true)`"),
         ("render: Render(quality: \"high\")", "`samples: 256`"),
         ("background: Environment(file: \"sky.hdr\", intensity: 2)", "did you mean `scale`?"),
         ("background: Environment(file: \"sky.hdr\", rotate: 90)", "did you mean `rotation`?"),
@@ -182,6 +196,9 @@ fn what_is_certain_is_mended() {
     ] {
         assert_eq!(mend("scene", &of_material(written), Syntax::Ron, Path::new("")).text, of_material(right));
     }
+    // What may mean a size or how fine it is stays.
+    let wood = of_material("Diffuse(albedo: Wood(scale: 0.2))");
+    assert_eq!(mend("scene", &wood, Syntax::Ron, Path::new("")).text, wood);
     for (written, right) in [
         ("Plane(x: 2)", "Plane(point: (2, 0, 0), normal: (1, 0, 0))"),
         ("Disk(axis: (0, 0, 1))", "Disk(normal: (0, 0, 1))"),

@@ -5,7 +5,7 @@ use crate::codes;
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
-use crate::read::Reader;
+use crate::read::{Reader, describe};
 use crate::schema::{FieldDef, Rule, Type};
 use crate::tree::{Item, Kind};
 use crate::words::{Words, scene_enum, scene_struct};
@@ -123,6 +123,16 @@ impl Words for Background {
         if matches!(item.kind(), Kind::Struct | Kind::Map) || item.name().is_some() || item.kind() == Kind::Word {
             let BackgroundWords::Environment(environment) = BackgroundWords::read(reader, item, at)?;
             return Some(Background::Environment(environment));
+        }
+        // As it is without its quotes.
+        if item.kind() == Kind::Text && matches!(&*item.text().to_ascii_lowercase(), "transparent" | "none" | "clear") {
+            let message = format!("{} cannot be {}", at.noun, describe(item));
+            let fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), message);
+            reader.report(fault.expected("a colour, or a picture: Environment(file: ..)").hint(
+                "leave `background` out: then it is black; what is to be laid over other pictures has `output: \
+                 Output(alpha: true)`",
+            ));
+            return None;
         }
         let color = Color::read(reader, item, at)?;
         warn_of_bytes(reader, item, color);

@@ -276,7 +276,8 @@ pub(super) fn field_elsewhere(
             let width = *numbers(value).filter(|sides| sides.len() == 2)?.first()?;
             Some((Some("sensor_width"), format!("{}{width}", name_of("sensor_width"))))
         }
-        "diameter" => convert("radius", |d| d / 2.0),
+        "d" if !matches!(def.name, "Sphere" | "Cylinder" | "Disk") => None,
+        "diameter" | "d" => convert("radius", |d| d / 2.0),
         "step" | "distance" | "pitch" | "interval" if def.name == "Grid" && value.number().is_some() => {
             let spacing = vector(value, &[value.lexeme(); 3]);
             Some((Some("spacing"), format!("{}{spacing}", name_of("spacing"))))

@@ -62,13 +62,37 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
     (
         &["section", "cutaway", "cut open", "cross section", "cross-section", "clip plane", "clipping"],
-        "a body is cut open by Difference(objects: [body, Box(..)]), or by Intersection with a Plane; what is nearer \
-         to the camera than `near` is not seen",
+        "a body of Boxes, Spheres, Cylinders, Cones, Capsules and Tori is cut open by Difference(objects: [body, \
+         Box(..)]), or by Intersection with a Plane; meshes, Lathes and Extrudes cannot be in one: they are cut by \
+         `camera: Camera(near: 4)`, what is nearer to the camera is not seen",
     ),
     (
         &["hollow", "shell", "wall thickness"],
         "what is hollow is a Difference of two shapes, the inner one smaller; what is open at both ends has `caps: \
          false`",
+    ),
+    (
+        &["variable", "variables", "constant", "constants", "parameter", "parameters"],
+        "values with names stand in `vars`, and expressions use them: `vars: { \"r\": 2 }` and `radius: \"=2*r\"`; \
+         `--set vars.r=3` gives another one",
+    ),
+    (
+        &["list", "lists", "array", "arrays"],
+        "a list stands in brackets, in `vars`, too: `vars: { \"sizes\": [1, 2, 4] }`, of which \"=sizes[0]\" is the \
+         first and \"=len(sizes)\" the count; a Repeat makes an item for each",
+    ),
+    (
+        &["scale bar", "scale_bar", "scalebar", "ruler", "dimension line"],
+        "nothing is drawn over the picture: a scale bar is a thin Box of its length beside the body",
+    ),
+    (
+        &["thumbnail", "thumbnails", "contact sheet", "small picture"],
+        "a small picture is quickly made by `tracer render scene.ron --size 160x120 --samples 16 -o small.png`",
+    ),
+    (
+        &["shadow catcher", "shadow_catcher", "shadowcatcher", "catch shadows"],
+        "there is none: render with and without the body before the same floor, and let another program divide the \
+         pictures",
     ),
     (
         &["ray", "rays", "light ray", "light rays", "ray tracing"],

@@ -25,6 +25,8 @@ pub(super) fn other_way(name: &str, def: &'static StructDef, syntax: Syntax) -> 
         "size" | "width" | "radius" | "extent" if def.name == "Plane" => {
             Some("a `Plane` has no end; what has one is a `Rectangle`, with a `size`")
         }
+        // Of hills it is how high they are.
+        "scale" if def.name == "HeightField" => None,
         "scale" | "size" if has("transform") && ron => Some("write it as a transform: `transform: [Scale(2)]`"),
         "scale" | "size" if has("transform") => Some("write it as a transform: `transform = [{ Scale = 2 }]`"),
         "position" | "center" | "translate" | "translation" | "move" | "offset" if has("transform") && ron => {

@@ -109,6 +109,14 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
             "values with names stand in `vars`, and are reckoned with in expressions: \"=2*height\""
         }
         "transparent" if def.name == "Output" => "the background is left out of the picture by `alpha: true`",
+        "transparent" | "film_transparent" | "transparent_background"
+            if matches!(def.name, "Image" | "Scene" | "Render") =>
+        {
+            "the background is left out of the picture by `output: Output(alpha: true)`"
+        }
+        "radiosity" | "global_illumination" | "gi" if matches!(def.name, "Scene" | "Render") => {
+            "light that surfaces send on is always there; how often is `render: Render(max_bounces: 8)`"
+        }
         _ => return None,
     })
 }

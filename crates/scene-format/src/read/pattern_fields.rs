@@ -1,6 +1,6 @@
 //! Fields that patterns and their mappings have in other programs, and how they are said here.
 
-use super::elsewhere::{Fields, numbers};
+use super::elsewhere::{Fields, numbers, vector};
 use super::{Reader, describe};
 use crate::codes;
 use crate::desc::is_texture;
@@ -84,12 +84,41 @@ pub(super) fn of_mapping(
         return Some((format!("it belongs to its `mapping`: {mended}"), None));
     }
     let mended = format!("{}{mended}", Fields(syntax).name("mapping"));
+    // In POV-Ray `scale` is how large a pattern is: below 1 it is finer there, and coarser here.
+    if let ("scale", "Object", Some(finer)) = (name, kind, finer(value)) {
+        let finer = format!("{}{}", Fields(syntax).name("mapping"), mapping(kind, field, &finer, syntax));
+        let size = value.lexeme();
+        return Some((
+            format!(
+                "write `{finer}` for a pattern of {size} of the size, as in POV-Ray, or `{mended}` for so many cells \
+                 along a unit of length"
+            ),
+            None,
+        ));
+    }
     let more = match (field, kind) {
         ("scale", "Object") => ": so many cells along a unit of length",
         ("scale", _) => ": so many along each side",
         _ => "",
     };
     Some((format!("write `{mended}`{more}"), certain.then_some(mended)))
+}
+
+/// One over a size below 1, as it is best written, for each axis where there are three.
+fn finer(value: Item<'_, '_>) -> Option<String> {
+    let over = |size: f64| {
+        let exact = 1.0 / size;
+        let near = (exact * 1000.0).round() / 1000.0;
+        format!("{near}")
+    };
+    if let Some(size) = value.number() {
+        return (size > 0.0 && size < 1.0).then(|| over(size));
+    }
+    let sizes: Option<Vec<f64>> = value.children().take(4).map(|child| child.number()).collect();
+    let sizes = sizes.filter(|sizes| sizes.len() == 3 && sizes.iter().all(|size| *size > 0.0))?;
+    let inverse: Vec<String> = sizes.iter().map(|size| over(*size)).collect();
+    let inverse: Vec<&str> = inverse.iter().map(String::as_str).collect();
+    sizes.iter().any(|size| *size < 1.0).then(|| vector(value, &inverse))
 }
 
 /// What is said of other fields that patterns do not have.

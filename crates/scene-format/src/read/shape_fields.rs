@@ -134,6 +134,14 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
         ("radius" | "r" | "half_extents" | "half_size" | "halfsize" | "edge" | "side" | "length", "Box") => {
             "its sides along x, y and z are its `size`, from face to face; round edges have a radius, its `rounding`"
         }
+        ("u" | "v" | "edge1" | "edge2", "Rectangle") => {
+            "its sides are the two numbers of its `size`, which way it faces its `normal`; by its corners it is a \
+             `Polygon`"
+        }
+        ("corners" | "points" | "vertices", "Rectangle") if ron => {
+            "by its corners it is Polygon(points: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])"
+        }
+        ("corners" | "points" | "vertices", "Rectangle") => "by its corners it is a `Polygon`, whose `points` they are",
         ("radius" | "r", "Rectangle" | "Polygon") => "what has a radius is a `Disk`, or a `Sphere`",
         (_, "Box") if side => "its sides along x, y and z are its `size`",
         (_, "Rectangle") if side => "its sides are its `size`: two numbers, or one for both",

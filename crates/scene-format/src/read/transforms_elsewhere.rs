@@ -399,6 +399,8 @@ fn step_as_field(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Op
     let other = if name.starts_with("scal") { "1" } else { "0" };
     let three = || reckoned(value).and_then(|all| <[&str; 3]>::try_from(all).ok()).or_else(|| by_axes(other));
     match name {
+        // How high hills are.
+        "scale" if def.name == "HeightField" && one(value).is_some() => None,
         "scale" | "scaling" => {
             let factors = three().or_else(|| one(value).map(|factor| [factor; 3]))?;
             let same = one(value).is_some();
