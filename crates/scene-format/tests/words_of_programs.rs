@@ -283,7 +283,7 @@ fn first_tries_of_arguments() {
     let cases = [
         (lit, "objects[0].name=foo", "write --set 'objects[0].name=\"foo\"'"),
         (lit, "objects[0].name=my ball (1)", "write --set 'objects[0].name=\"my ball (1)\"'"),
-        (lit, "objects[0].material=white (matt)", "write --set 'objects[0].material=\"white (matt)\"'"),
+        (lit, "objects[0].material=white #2", "write --set 'objects[0].material=\"white #2\"'"),
         (lit, "objects[0].name=it's #1", "write --set 'objects[0].name=\"it'\\''s #1\"'"),
         (lit, "lights[0].group=key", "write --set 'lights[0].group=\"key\"'"),
         (lit, "materials.white.albedo=a/b.png", "write --set 'materials.white.albedo=Texture(file: \"a/b.png\")'"),

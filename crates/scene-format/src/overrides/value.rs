@@ -58,7 +58,7 @@ fn of_argument(fault: &mut Diagnostic, argument: &str) {
     }
 }
 
-/// A value of several words for a field that takes a text, `material=gold (matt)`: where it begins, and the whole of it
+/// A value of several words for a field that takes a text, `material=gold #2`: where it begins, and the whole of it
 /// between quotes.
 fn whole_text(argument: &str) -> Option<(usize, String)> {
     const OF_TEXTS: [&str; 5] = ["name", "group", "material", "camera", "placements"];
