@@ -76,7 +76,7 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-/// The name of a file between quotes. It may be any: it is a text however it is written, but for what RON has for texts.
+/// The name of a file between quotes. It may be any: it is a text however it is written, but for texts as RON has them.
 pub(super) fn name_of_file(field: &str, value: &str) -> Option<String> {
     let is_name = value.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '.' | '/' | '~' | '_' | '#'));
     let is_call = value.find(|c: char| !c.is_alphanumeric()).is_some_and(|at| value[at..].starts_with('('));
