@@ -102,10 +102,20 @@ fn white(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
         _ => "most of what is seen before the background is white",
     };
     let pale = if message.contains("before") { at_share(seen, 0.25) } else { at_share(all, 0.25) };
+    // Of what is bright in one channel alone nothing is to be told afterwards.
+    let brightest = |radiance: [f64; 3]| radiance.into_iter().fold(0.0, f64::max);
+    let bright = without_background(film, desc, brightest);
+    let is_clipped = |factor: f64| {
+        let clipped = bright.iter().filter(|light| factor * **light > CLIPPED).count();
+        clipped as f64 >= MOST_CLIPPED * bright.len() as f64
+    };
+    let factor = 0.5 / pale;
+    let factor =
+        if bright.is_empty() || !is_clipped(factor) { factor } else { factor.min(1.0 / at_share(bright, 0.9)) };
     Some(
         Diagnostic::warning(codes::ALL_WHITE, desc.effects.exposure.span, message)
             .expected("what is seen between black, 0, and white, 1")
-            .hint(way(desc, 0.5 / pale, "a darker background, darker lights")),
+            .hint(way(desc, factor, "a darker background, darker lights")),
     )
 }
 
@@ -171,9 +181,11 @@ fn shown(film: &Film, desc: &SceneDesc, of: impl Fn([f64; 3]) -> f64) -> impl It
     pixels.map(move |(x, y)| exposed * of(film.radiance(x, y)))
 }
 
-/// What makes a picture so many times as bright.
+/// What makes a picture so many times as bright, or a little more than that: rounded to the other side it might be the
+/// exposure that the scene has.
 fn way(desc: &SceneDesc, factor: f64, lights: &str) -> String {
-    let exposure = (desc.effects.exposure.value + factor.log2()).round();
+    let exact = desc.effects.exposure.value + factor.log2();
+    let exposure = if factor > 1.0 { exact.ceil() } else { exact.floor() };
     format!("try `--set effects.exposure={exposure}`, where 1 more is twice as bright, or take {lights}")
 }
 
