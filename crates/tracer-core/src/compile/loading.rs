@@ -90,11 +90,18 @@ pub fn load(desc: &SceneDesc, sources: &Sources<'_>, diagnostics: &mut Diagnosti
     let mut files = Vec::new();
     let mut file_of_path = Vec::new();
     let mut of_materials = Diagnostics::new();
-    for ((result, (_, span, part)), own) in results.into_iter().zip(&paths).zip(own_materials) {
+    let shown = wanted.iter().map(|wanted| wanted.colors);
+    for (((result, (_, span, part)), own), shown) in results.into_iter().zip(&paths).zip(own_materials).zip(shown) {
         match result {
             Ok(data) => {
                 for warning in &data.warnings {
-                    let told = Diagnostic { span: *span, ..warning.clone() };
+                    let mut told = Diagnostic { span: *span, ..warning.clone() };
+                    // Here and not with the mesh: only the scene shows them.
+                    if !shown && warning.code == codes::MESH_ODDITIES && warning.message.contains(" vertex colour") {
+                        told.hint = "the mesh shows the colours of its vertices with `material: Diffuse(albedo: \
+                                     VertexColor())`"
+                            .to_owned();
+                    }
                     if warning.code != codes::MTL_UNSUPPORTED {
                         diagnostics.push(told);
                     } else if own {

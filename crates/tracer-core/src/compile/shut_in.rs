@@ -101,7 +101,7 @@ pub fn warn(desc: &SceneDesc, made: &Made<'_>, diagnostics: &mut Diagnostics) {
                     Diagnostic::warning(
                         codes::CAMERA_SHUT_IN,
                         desc.camera.position.span,
-                        format!("the camera stands inside objects[{index}], where there is no light"),
+                        format!("the camera stands inside {}, where there is no light", called(desc, *index)),
                     )
                     .hint("move the camera out of it, or make the object smaller")
                     .label(of_object, "this object is not seen through"),
@@ -110,19 +110,25 @@ pub fn warn(desc: &SceneDesc, made: &Made<'_>, diagnostics: &mut Diagnostics) {
             Side::Out if few => {
                 let shut_in = found.lamps.iter().filter(|lamp| side(&lamp.extent) == Side::In);
                 let shut_in: Vec<&Lamp> = shut_in.filter(|lamp| told.insert(&lamp.name)).collect();
-                diagnostics.extend(light_shut_in(&shut_in, *index, of_object));
+                diagnostics.extend(light_shut_in(&shut_in, &called(desc, *index), of_object));
             }
             _ => {}
         }
     }
 }
 
-fn light_shut_in(lamps: &[&Lamp], index: usize, of_object: Span) -> Option<Diagnostic> {
+/// An object by its place, and its name where it has one.
+fn called(desc: &SceneDesc, index: usize) -> String {
+    let name = desc.objects.get(index).and_then(|object| object.value.name().as_str());
+    name.map_or_else(|| format!("objects[{index}]"), |name| format!("\"{name}\" (objects[{index}])"))
+}
+
+fn light_shut_in(lamps: &[&Lamp], object: &str, of_object: Span) -> Option<Diagnostic> {
     let (first, others) = lamps.split_first()?;
     let name = &first.name;
     let message = match others.len() {
-        0 => format!("{name} is shut in by objects[{index}]: its light gets nowhere"),
-        more => format!("{name} and {more} more are shut in by objects[{index}]: their light gets nowhere"),
+        0 => format!("{name} is shut in by {object}: its light gets nowhere"),
+        more => format!("{name} and {more} more are shut in by {object}: their light gets nowhere"),
     };
     Some(
         Diagnostic::warning(codes::LIGHT_SHUT_IN, first.span, message)
