@@ -234,6 +234,7 @@ fn option_elsewhere(option: &str) -> Option<&'static str> {
         "--verbose-level" | "--log-level" | "--debug" => "--verbose",
         "--pixel-debug" | "--debug-pixel" | "--pixelmaterial" => "`tracer inspect SCENE --pixel 12,34`",
         "--view" | "--cam" => "--camera NAME",
+        "--all-cameras" | "--cameras" | "--all-views" => "--camera NAME, in one run for each of them",
         "--animation" | "--anim" | "--frame-range" | "--frame-start" | "--frame-end" => {
             "--frames 0-47 -o shot_####.png"
         }
@@ -242,6 +243,22 @@ fn option_elsewhere(option: &str) -> Option<&'static str> {
         "--continue" | "--restart" => "--resume FILE",
         _ => return None,
     })
+}
+
+/// `-w 100 -h 80`, the sides of a picture by options of their own: ours for both.
+fn size_of(option: &str, words: &[String]) -> Option<String> {
+    const WIDTH: [&str; 3] = ["-w", "-W", "--width"];
+    const HEIGHT: [&str; 3] = ["-h", "-H", "--height"];
+    let side = |names: [&str; 3]| {
+        let mut pairs = words.iter().zip(words.iter().skip(1));
+        pairs.find_map(|(name, value)| value.parse::<u32>().ok().filter(|_| names.contains(&name.as_str())))
+    };
+    let is_side = WIDTH.contains(&option) || HEIGHT.contains(&option);
+    match (side(WIDTH), side(HEIGHT)) {
+        (Some(width), Some(height)) if is_side => Some(format!("--size {width}x{height}")),
+        (Some(_), None) | (None, Some(_)) if is_side => Some("--size 640x480".to_owned()),
+        _ => None,
+    }
 }
 
 /// What other programs call a command of ours.
@@ -288,7 +305,9 @@ pub fn with_tip(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
             // An option of a command, without the command.
             let before = words.iter().all(|word| Cli::command().find_subcommand(word).is_none());
             let option = context(&error, ContextKind::InvalidArg);
-            let elsewhere = option.as_deref().and_then(option_elsewhere).map(|ours| here(ours, words.first()));
+            let size = option.as_deref().and_then(|option| size_of(option, &words));
+            let elsewhere = size.as_deref().or_else(|| option.as_deref().and_then(option_elsewhere));
+            let elsewhere = elsewhere.map(|ours| here(ours, words.first()));
             let of_option = || option.as_deref().filter(|_| before).and_then(of_option);
             let of_others = || of_other_commands(words.first()?, option.as_deref().filter(|_| !before)?);
             if elsewhere.is_some() {

@@ -21,33 +21,41 @@ pub(super) fn run(args: &ExplainArgs) -> Result<ExitCode, Failure> {
             )?;
         }
         words => {
-            let asked = &words.join(" ");
-            let asked = asked.trim();
-            let digits = asked.trim_start_matches(['E', 'W', 'e', 'w']);
-            let kinds = match &asked[..asked.len() - digits.len()] {
-                "" => &["E", "W"][..],
-                "E" | "e" => &["E"],
-                "W" | "w" => &["W"],
-                _ => &[],
+            let whole = words.join(" ");
+            // Several words are one, `depth of field`, or codes and words one after the other.
+            let all = match told(&whole) {
+                Some(text) => vec![text],
+                None if words.len() > 1 => {
+                    words.iter().map(|word| told(word).ok_or_else(|| unknown(&whole))).collect::<Result<_, _>>()?
+                }
+                None => return Err(unknown(whole.trim())),
             };
-            let codes: Vec<&Entry> = match digits.parse::<u16>().ok() {
-                Some(number) => kinds.iter().filter_map(|kind| find(&format!("{kind}{number:04}"))).collect(),
-                None => find(asked).into_iter().collect(),
-            };
-            for (k, code) in codes.iter().enumerate() {
-                let apart = if k > 0 { "\n" } else { "" };
-                writeln!(out, "{apart}{}: {}\n\n{}", code.code, code.title, unindented(code.text))?;
-            }
-            let word = scene_format::explain_word(asked).filter(|_| codes.is_empty());
-            match word {
-                Some(text) => out.write_all(text.as_bytes())?,
-                None if codes.is_empty() => return Err(unknown(asked)),
-                None => {}
-            }
+            out.write_all(all.join("\n").as_bytes())?;
         }
     }
     out.flush()?;
     Ok(ExitCode::from(exit::DONE))
+}
+
+/// What there is of a code, by its number too, or of a word.
+fn told(asked: &str) -> Option<String> {
+    let asked = asked.trim();
+    let digits = asked.trim_start_matches(['E', 'W', 'e', 'w']);
+    let kinds = match &asked[..asked.len() - digits.len()] {
+        "" => &["E", "W"][..],
+        "E" | "e" => &["E"],
+        "W" | "w" => &["W"],
+        _ => &[],
+    };
+    let codes: Vec<&Entry> = match digits.parse::<u16>().ok() {
+        Some(number) => kinds.iter().filter_map(|kind| find(&format!("{kind}{number:04}"))).collect(),
+        None => find(asked).into_iter().collect(),
+    };
+    if codes.is_empty() {
+        return scene_format::explain_word(asked);
+    }
+    let text = |code: &&Entry| format!("{}: {}\n\n{}\n", code.code, code.title, unindented(code.text));
+    Some(codes.iter().map(text).collect::<Vec<_>>().join("\n"))
 }
 
 fn unknown(asked: &str) -> Failure {
