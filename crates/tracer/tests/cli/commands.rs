@@ -312,6 +312,8 @@ fn codes_are_explained() {
     }
     let two = sandbox.run(&["explain", "look", "at"]).ends(0).silent().out_text();
     assert_eq!(two, sandbox.run(&["explain", "look_at"]).ends(0).silent().out_text());
+    let apart = sandbox.run(&["explain", "E0606", "Sphere"]).ends(0).silent().out_text();
+    assert!(apart.contains("side by side") && apart.contains("\n\nSphere, a kind of Object"), "{apart}");
     let both = sandbox.run(&["explain", "301"]).ends(0).silent().out_text();
     assert!(both.starts_with("E0301: ") && both.contains("\nW0301: "), "{both}");
     let word = sandbox.run(&["explain", "radius"]).ends(0).silent().out_text();

@@ -274,6 +274,8 @@ fn a_wrong_command_gets_a_tip() {
     wrong(&["--resolved"], "--resolved belongs to tracer info");
     wrong(&["render", "scene.ron", "--spp", "3"], "--samples 64");
     wrong(&["render", "scene.ron", "--width=3"], "--size 640x480");
+    wrong(&["render", "scene.ron", "-w", "100", "-h", "80"], "--size 100x80");
+    wrong(&["render", "scene.ron", "--all-cameras"], "--camera NAME, in one run for each");
     for words in ["serve preview", "view preview", "format fmt", "init new", "test golden", "validate check"] {
         let (word, ours) = words.split_once(' ').expect("two");
         wrong(&[word], &format!("'{ours}'"));

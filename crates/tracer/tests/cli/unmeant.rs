@@ -344,7 +344,9 @@ fn empty_pictures_are_told() {
     let ball = "Sphere(center: (0, 0, 0), radius: 1)";
     assert!(codes(&sandbox, &scene(&lamp.replace("radiance: 10", "radiance: 100"), ball)).is_empty());
     // A background does not help who stands within something, whatever it is.
-    let within = "Capsule(from: (0, 0, 6), to: (0, 2, 6), radius: 1)";
+    let within = "Capsule(name: \"hull\", from: (0, 0, 6), to: (0, 2, 6), radius: 1)";
+    sandbox.write("within.ron", scene("background: 0.5,", within));
+    sandbox.run(&["check", "within.ron"]).ends(0).says(&["the camera stands inside \"hull\" (objects[0])"]);
     assert_eq!(codes(&sandbox, &scene("background: 0.5,", within)), ["W0306"]);
     // So little light that nearly all of it is shown black; what a tone map makes of it, nobody knows.
     assert_eq!(codes(&sandbox, &scene(lamp, ball)), ["W0308"]);
