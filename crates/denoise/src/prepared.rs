@@ -13,8 +13,6 @@ const ENOUGH: f32 = 0.05;
 const MOST: f32 = 1e12;
 /// The square over which the size of the noise is found.
 const WIDE: usize = 7;
-/// And the smaller one.
-const NEAR: usize = 2;
 /// How far away the noise of a pixel is looked for.
 pub const REACH: usize = WIDE + 1;
 
@@ -60,11 +58,21 @@ impl Prepared {
         let of_both = |k: usize| input.share * of_half[0](k) + (1.0 - input.share) * of_half[1](k);
         let tint = [0, 1, 2].map(|c| plane(&|k| of_both(3 * k + c)));
         let albedo = [0, 1, 2].map(|c| plane(&|k| tint[c].values[k].max(DARK)));
-        let knows = |k: usize| (0..3).all(|c| of_half.iter().all(|of| of(3 * k + c) >= ENOUGH * tint[c].values[k]));
-        let knows: Vec<bool> = (0..width * height).into_par_iter().map(knows).collect();
+        let of_pixel: Vec<Pixel> = (0..width * height)
+            .into_par_iter()
+            .map(|k| {
+                let three = |of: &dyn Fn(usize) -> f32| [0, 1, 2].map(|c| of(3 * k + c));
+                Pixel::of(
+                    input.halves.map(|half| three(&|n| number(half[n]))),
+                    [three(&of_half[0]), three(&of_half[1])],
+                    [0, 1, 2].map(|c| albedo[c].values[k]),
+                )
+            })
+            .collect();
+        let knows: Vec<bool> = of_pixel.iter().map(|&pixel| pixel != Pixel::Texture).collect();
         let divisors = [0, 1].map(|half: usize| {
             let own = |c: usize, k: usize| of_half[half](3 * k + c).max(DARK);
-            [0, 1, 2].map(|c| plane(&|k| if knows[k] { own(c, k) } else { albedo[c].values[k] }))
+            [0, 1, 2].map(|c| plane(&|k| if of_pixel[k] == Pixel::Apart { own(c, k) } else { albedo[c].values[k] }))
         });
         let lamps = [0, 1, 2].map(|c| plane(&|k| number(input.lamps[3 * k + c])));
         let halves = [0, 1].map(|half: usize| {
@@ -75,14 +83,7 @@ impl Prepared {
             let variance = input.variance[k] / scale / scale / (luminance * luminance);
             if variance.is_finite() { variance.clamp(0.0, MOST) } else { 0.0 }
         });
-        let of_texture = plane(&|k| {
-            let of_half = [0, 1].map(|half: usize| luminance(&divisors[half], k) * luminance(&halves[half], k));
-            let unlike = [0, 1].map(|half: usize| luminance(&divisors[half], k));
-            let light = (of_half[0] + of_half[1]) / (unlike[0] + unlike[1]);
-            let of_mean = light * (unlike[0] - unlike[1]) / luminance(&albedo, k);
-            (input.share * (1.0 - input.share) * of_mean * of_mean).min(MOST)
-        });
-        let variance = variance(&halves, input.share, &Shape { samples: shape, of_texture, knows: &knows });
+        let variance = variance(&halves, input.share, &shape, &knows);
         let normal = [0, 1, 2].map(|c| plane(&|k| feature(input.normal[3 * k + c]).clamp(-1.0, 1.0)));
         let near = plane(&|k| if input.depth[k] > 0.0 { (1.0 / input.depth[k]).min(MOST) } else { 0.0 });
         let slope = [slope(&near, 1), slope(&near, width)];
@@ -101,6 +102,35 @@ impl Prepared {
             near,
             slope,
             tint,
+        }
+    }
+}
+
+/// What a pixel's halves differ by.
+#[derive(Clone, Copy, PartialEq)]
+enum Pixel {
+    /// By light: each is divided by the albedo of both.
+    Light,
+    /// By what they have met of a texture, and each knows light by itself: each is divided by its own albedo.
+    Apart,
+    /// By that, and one of them has met so little that it knows none: what they differ by says nothing of noise.
+    Texture,
+}
+
+impl Pixel {
+    /// From radiance and albedo of the halves, and the albedo of both. It is a texture that they differ by where
+    /// division by their own albedos leaves less than half of the difference: not so at the edges of mirrors and of
+    /// highlights, whose light does not go with the albedo.
+    fn of(radiance: [[f32; 3]; 2], own: [[f32; 3]; 2], albedo: [f32; 3]) -> Self {
+        let square = |of: &dyn Fn(usize) -> f32| (0..3).map(|c| of(c) * of(c)).sum::<f32>();
+        let whole = square(&|c| (radiance[0][c] - radiance[1][c]) * albedo[c]);
+        let left = square(&|c| radiance[0][c] * own[1][c] - radiance[1][c] * own[0][c]);
+        if left >= 0.25 * whole {
+            Pixel::Light
+        } else if (0..3).all(|c| own.iter().all(|own| own[c] >= ENOUGH * albedo[c])) {
+            Pixel::Apart
+        } else {
+            Pixel::Texture
         }
     }
 }
@@ -132,36 +162,17 @@ fn differences([one, other]: &[Colours; 2], share: f32) -> Plane {
 /// The variance of a half: as large as the halves tell over a wide square, of the shape that the samples' own has
 /// (Rousselle, Knaus, Zwicker 2012, section 5). That one believes the samples independent, which those that are
 /// stratified and pixels that share are not: they have a third of it or less.
-///
-/// Where the samples differ by what they have met of a texture, theirs is no shape of that: the less of it is of light,
-/// the more the halves alone are asked, over a smaller square.
-fn variance(halves: &[Colours; 2], share: f32, Shape { samples, of_texture, knows }: &Shape<'_>) -> Plane {
-    let (width, height) = (samples.width, samples.height);
+fn variance(halves: &[Colours; 2], share: f32, shape: &Plane, knows: &[bool]) -> Plane {
+    let (width, height) = (shape.width, shape.height);
     let of_halves = differences(halves, share);
-    let of_halves = Plane::of(width, height, |k| if knows[k] { of_halves.values[k] } else { 0.0 });
-    let is_apart = Plane::of(width, height, |k| f32::from(u8::from(knows[k])));
-    let samples_apart = Plane::of(width, height, |k| samples.values[k] * is_apart.values[k]);
-    let (wide, wide_shape) = (of_halves.blurred(WIDE), samples_apart.blurred(WIDE));
-    let (near, near_apart) = (of_halves.blurred(NEAR), is_apart.blurred(NEAR));
-    let (texture, whole) = (of_texture.blurred(NEAR), samples.blurred(NEAR));
-    let shape = samples.blurred(1);
+    let judged = |plane: &Plane| Plane::of(width, height, |k| if knows[k] { plane.values[k] } else { 0.0 });
+    let of_halves = judged(&of_halves);
+    let (wide, wide_shape) = (of_halves.blurred(WIDE), judged(shape).blurred(WIDE));
+    let (near, near_shape) = (of_halves.blurred(2), shape.blurred(1));
     Plane::of(width, height, |k| {
-        let near = near.values[k] / near_apart.values[k].max(f32::MIN_POSITIVE);
         let size = wide.values[k] / wide_shape.values[k];
-        let of_texture = texture.values[k] / whole.values[k];
-        let of_light = if of_texture.is_finite() { 1.0 - of_texture.min(1.0) } else { 1.0 };
-        if size.is_finite() { of_light * shape.values[k] * size + (1.0 - of_light) * near } else { near }
+        if size.is_finite() { near_shape.values[k] * size } else { near.values[k] }
     })
-}
-
-/// What the samples tell of where there is more noise and where less.
-struct Shape<'a> {
-    /// Variance of a pixel's mean, were they independent.
-    samples: Plane,
-    /// How much of it is of a texture, as far as the halves tell.
-    of_texture: Plane,
-    /// See [`Prepared::knows`].
-    knows: &'a [bool],
 }
 
 fn luminance(of: &Colours, k: usize) -> f32 {
