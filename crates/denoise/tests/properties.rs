@@ -183,16 +183,15 @@ fn halves_may_have_met_unlike_parts_of_a_texture() {
     let met = |k: usize, half: usize| (0..8).filter(|n| noise(8 * k + n + 99, half) > 0.0).count() as f32 / 8.0;
     let mut albedo = [vec![0.0; 3 * 80 * 60], vec![0.0; 3 * 80 * 60]];
     for k in 0..80 * 60 {
-        let mean = 0.5 * (met(k, 0) + met(k, 1));
-        for c in 3 * k..3 * k + 3 {
-            for half in 0..2 {
-                albedo[half][c] = met(k, half);
-                picture.halves[half][c] *= met(k, half);
-            }
-            picture.truth[c] *= mean;
+        let (mean, numbers) = (0.5 * (met(k, 0) + met(k, 1)), 3 * k..3 * k + 3);
+        for (half, albedo) in albedo.iter_mut().enumerate() {
+            albedo[numbers.clone()].fill(met(k, half));
+            picture.halves[half][numbers.clone()].iter_mut().for_each(|x| *x *= met(k, half));
         }
+        picture.truth[numbers].iter_mut().for_each(|x| *x *= mean);
         // The samples' own variance is that of the pattern.
-        picture.variance[k] = light(k % 80, k / 80).powi(2) * 0.25 / 16.0;
+        let light = light(k % 80, k / 80);
+        picture.variance[k] = light * light * 0.25 / 16.0;
     }
     let denoised =
         denoise(&Input { albedo: [&albedo[0], &albedo[1]], ..picture.input() }).expect("the sizes are right");

@@ -63,6 +63,8 @@ def test_a_clear_background_has_alpha(ball):
 
 
 def test_a_denoised_picture_keeps_the_noisy_one(ball):
+    # Under its sky alone there is no noise of light.
+    ball["lights"] = [{"SphereLight": {"center": [2, 3, 4], "radius": 1, "power": 500}}]
     picture = tracer.Scene(ball).render(denoise=True)
     assert list(picture.layers) == ["noisy"]
     assert np.array_equal(picture.layers["noisy"], tracer.render(ball))
