@@ -3,8 +3,8 @@
 use scene_format::{Override, Syntax, load_str};
 use std::path::Path;
 use tracer_core::{
-    Crop, DENOISE_REACH, DenoiseError, Film, FilmHead, GUIDES, Gaps, Part, RenderOptions, SavedFilm, Scene, Split,
-    Unobserved, compile, denoise, develop, develop_denoised, render, resume,
+    Crop, DENOISE_REACH, DenoiseError, Film, FilmHead, GUIDES, Gaps, Layer, Part, RenderOptions, SavedFilm, Scene,
+    Split, Unobserved, compile, denoise, develop, develop_denoised, render, resume,
 };
 
 /// A lamp in a shade over a table with a ball of glass: light paths fall, pixels share.
@@ -73,10 +73,10 @@ fn pixels(film: &Film) -> impl Iterator<Item = (u32, u32)> + use<> {
     (y..y + height).flat_map(move |py| (x..x + width).map(move |px| (px, py)))
 }
 
-/// Both halves of all pixels, as bits.
-fn halves(film: &Film) -> Vec<[[u64; 3]; 2]> {
-    let of = |(x, y)| film.radiance_of_halves(x, y).expect("there are halves");
-    pixels(film).map(|place| of(place).map(|half| half.map(f64::to_bits))).collect()
+/// Radiance and albedo of both halves of all pixels, as bits.
+fn halves(film: &Film) -> Vec<[[[u64; 3]; 2]; 2]> {
+    let of = |(x, y)| [film.radiance_of_halves(x, y).expect("there are halves"), film.albedo_of_halves(x, y)];
+    pixels(film).map(|place| of(place).map(|halves| halves.map(|half| half.map(f64::to_bits)))).collect()
 }
 
 /// The mean of a denoised picture over that of the noisy one, of four seeds: how much of its light it keeps.
@@ -133,6 +133,27 @@ fn halves_make_up_the_picture() {
             }
         }
         assert!(!plain.has_halves() && plain.radiance_of_halves(3, 3).is_none());
+    }
+}
+
+/// And so do their albedos the layer; where the background is kept by itself, without what is white in it.
+#[test]
+fn albedos_of_halves_make_up_the_layer() {
+    for (output, samples) in [("output.alpha=false", 23), ("output.alpha=true", 23), ("output.alpha=true", 16)] {
+        let film = film(&scene(OPEN, &[output]), &options(samples));
+        let layer = film.layer(Layer::DenoisingAlbedo).expect("it is a guide").values;
+        let (mut unlike, mut covered) = (0, 0);
+        for ((x, y), whole) in pixels(&film).zip(layer.chunks(3)) {
+            let (of, counts) = (film.albedo_of_halves(x, y), film.samples_of_halves(x, y).map(f64::from));
+            for c in 0..3 {
+                let sum = (counts[0] * of[0][c] + counts[1] * of[1][c]) / f64::from(samples);
+                let expected = f64::from(whole[c]) - (1.0 - film.alpha(x, y));
+                assert!((sum - expected).abs() < 1e-6, "({x}, {y}): {sum}, not {expected}");
+            }
+            unlike += usize::from(of[0] != of[1]);
+            covered += usize::from(film.alpha(x, y) > 0.0);
+        }
+        assert!(unlike > 100 && (covered < 64 * 48) == (output == "output.alpha=true"), "{unlike} {covered}");
     }
 }
 
