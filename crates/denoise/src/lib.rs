@@ -6,8 +6,8 @@
 //! is common to a half is not in the other.
 //!
 //! 1. *Demodulation* (`prepared`): what is not of lamps that are seen is divided by the albedo, so that textures are
-//!    not there to be blurred; both come back in the end. Where halves differ by what each has met of a texture, each is
-//!    divided by its own albedo.
+//!    not there to be blurred; both come back in the end. Where halves differ by what each has met of a texture, each
+//!    is divided by its own albedo.
 //! 2. *Filtering* (`filter`), three times with steps of 1, 3 and 9 pixels: around each pixel a plane over position,
 //!    normal, nearness and albedo is fitted to the pixels that are alike, as Bitterli et al. do (Nonlinearly Weighted
 //!    First-order Regression for Denoising Monte Carlo Renderings, 2016); their weighted mean is a second candidate.
