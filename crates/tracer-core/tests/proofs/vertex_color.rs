@@ -230,7 +230,8 @@ fn colours_are_kept_where_they_are_read_and_once() {
     let plain = scene("Mesh(file: \"a.off\")");
     assert!(plain.tables.colors.words.is_empty() && plain.tables.colors.mesh.is_empty());
     assert_eq!(plain.vertex_color(VertexSpace::AsFile, 0, 0), None);
-    assert!(plain.warnings.iter().any(|warning| warning.message.contains("16 vertex colours (ignored)")));
+    let told = plain.warnings.iter().find(|warning| warning.message.contains("16 vertex colours (ignored)"));
+    assert!(told.is_some_and(|warning| warning.hint.contains("Diffuse(albedo: VertexColor())")), "{told:?}");
     let read = "Mesh(file: \"a.off\", material: Diffuse(albedo: VertexColor())";
     let once = scene(&format!("{read})"));
     assert_eq!(once.tables.colors.words.len(), 16);
