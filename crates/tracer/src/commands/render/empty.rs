@@ -181,12 +181,17 @@ fn shown(film: &Film, desc: &SceneDesc, of: impl Fn([f64; 3]) -> f64) -> impl It
     pixels.map(move |(x, y)| exposed * of(film.radiance(x, y)))
 }
 
-/// What makes a picture so many times as bright, or a little more than that: rounded to the other side it might be the
-/// exposure that the scene has.
+/// What makes a picture so many times as bright, or a little more than that.
 fn way(desc: &SceneDesc, factor: f64, lights: &str) -> String {
-    let exact = desc.effects.exposure.value + factor.log2();
-    let exposure = if factor > 1.0 { exact.ceil() } else { exact.floor() };
+    let exposure = exposure(desc.effects.exposure.value, factor);
     format!("try `--set effects.exposure={exposure}`, where 1 more is twice as bright, or take {lights}")
+}
+
+/// A whole one, away from the present one: rounded to the other side it might be that.
+fn exposure(present: f64, factor: f64) -> f64 {
+    let exact = present + factor.log2();
+    // Zero has no sign.
+    0.0 + if factor > 1.0 { exact.ceil() } else { exact.floor() }
 }
 
 fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
@@ -256,4 +261,16 @@ fn behind_a_plane(desc: &SceneDesc) -> Option<String> {
         return Some(format!("{who} behind the plane objects[{k}], which faces ({facing}): move them, or the plane"));
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::exposure;
+
+    #[test]
+    fn another_exposure_is_asked_for() {
+        let asked = [(0.0, 0.9), (0.0, 1.1), (-1.0, 1.3), (1.0, 1.01), (-0.5, 0.2), (0.3, 0.9)];
+        let said = asked.map(|(present, factor)| exposure(present, factor).to_string());
+        assert_eq!(said, ["-1", "1", "0", "2", "-3", "0"]);
+    }
 }
