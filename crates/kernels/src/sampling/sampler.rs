@@ -5,23 +5,24 @@
 //! error of neighbours differs as blue noise does (Ahmed and Wonka: Screen-Space Blue-Noise Diffusion of Monte Carlo
 //! Sampling Error via Hierarchical Ordering of Pixels, 2020). There a pixel's Z-order number is the high part of the
 //! sample index, so the number of samples must be known beforehand. Here it enters by itself: with i the sample index,
-//! z the pixel's (Owen-scrambled) Z-order number, S_d the d-th Sobol' matrix and L the lower Pascal matrix, the point
-//! is
+//! z the pixel's (Owen-scrambled) Z-order number, S_d the d-th Sobol' matrix, L the lower Pascal matrix and V_d a
+//! matrix that is upper triangular, the point is
 //!
-//! u_d = owen(S_d i XOR L S_d z).
+//! u_d = owen(S_d i XOR L S_d V_d z).
 //!
 //! S_d i fills the first n bits for i < 2^n, and any k successive rows of the first k columns of L are invertible, so
 //! the union of the points of each Z-ordered group of 2^k pixels is stratified in 2^(n + k) strata per dimension, for
-//! every n at once: the picture after N samples does not depend on how many were asked for. Two pairs that belong
-//! together are four dimensions of one sequence (over samples; over pixels they are padded): the directions of the
-//! first two bounces the first four of Sobol', pixel and lens, which move the same edges and are often used alone, a
-//! pair and its companion (`companion_index`). For the directions that was tried, too: in a furnace three bounces had
-//! 1.5 times the error.
+//! every n at once: the picture after N samples does not depend on how many were asked for. That holds whatever V_d is;
+//! V_0 is the identity, and V_1 (`second_of_pixel`) spreads the points of groups in both dimensions together. Two pairs
+//! that belong together are four dimensions of one sequence (over samples; over pixels they are padded): the directions
+//! of the first two bounces the first four of Sobol', pixel and lens, which move the same edges and are often used
+//! alone, a pair and its companion (`companion_index`). For the directions that was tried, too: in a furnace three
+//! bounces had 1.5 times the error.
 //!
 //! The index is shuffled per tile of 16x16 pixels, so all that depends on the sample index is scalar work, once per
 //! tile.
 
-use super::sobol::{companion_index, higher_dimension, owen, pascal_upper, shuffle_index};
+use super::sobol::{companion_index, higher_dimension, owen, pascal_upper, second_of_pixel, shuffle_index};
 use crate::lanes::{ArrayF, ArrayU, Bits, Lanes};
 
 /// What a pair of dimensions is used for; `u32` is the vertex number along the path, 0 at the first hit.
@@ -154,13 +155,13 @@ impl Pair {
         for (k, pair) in pairs.iter().enumerate() {
             y[k] = owen(reversed_z, s(pair.pixel_key));
         }
-        // L U z is the reversal of L z, as L U L is the matrix that reverses (a test in `sobol`), and L of a reversed
-        // word the reversal of U of the word: of the two numbers that the pixel adds, one is the other reversed.
-        for y in &mut y {
-            *y = pascal_upper(*y);
+        // L z is the reversal of U of the reversed z, and L U z is U of the reversed z, as L U L is the matrix that
+        // reverses (tests in `sobol`).
+        for k in 0..K {
+            (x[k], y[k]) = (pascal_upper(y[k]), pascal_upper(second_of_pixel(y[k])));
         }
         for k in 0..K {
-            (x[k], y[k]) = (parts[k].0 ^ y[k].reverse_bits(), parts[k].1 ^ y[k]);
+            (x[k], y[k]) = (parts[k].0 ^ x[k].reverse_bits(), parts[k].1 ^ y[k]);
         }
         for k in 0..K {
             (x[k], y[k]) = (owen(x[k], s(pairs[k].owen_x)), owen(y[k], s(pairs[k].owen_y)));
@@ -272,6 +273,51 @@ mod tests {
                 b += f64::from(v) / 4096.0;
             }
             assert!((a - 0.5).abs() < 0.018 && (b - 0.5).abs() < 0.018, "{purpose:?} {a} {b}");
+        }
+    }
+
+    /// The least t so that every elementary interval of area 2^(t - m) holds 2^t of these 2^m points.
+    fn quality(points: &[[f32; 2]], m: u32) -> u32 {
+        let even = |t: u32| {
+            (0..=m - t).all(|columns| {
+                let rows = m - t - columns;
+                let mut cells = vec![0u32; 1 << (m - t)];
+                for [u, v] in points {
+                    let (column, row) = (u * (1u32 << columns) as f32, v * (1u32 << rows) as f32);
+                    cells[(column as usize) << rows | row as usize] += 1;
+                }
+                cells.iter().all(|&count| count == 1 << t)
+            })
+        };
+        (0..=m).find(|&t| even(t)).expect("all points lie in the whole")
+    }
+
+    /// What docs/noise.md ("Neighbours in two dimensions") says of 2^n samples of the pixels of groups of 2^k.
+    #[test]
+    fn groups_of_pixels_are_spread_in_two_dimensions() {
+        let table = [
+            [0, 0, 1, 0, 1, 0, 1, 1],
+            [1, 0, 1, 1, 2, 1, 2, 1],
+            [0, 1, 2, 1, 1, 2, 3, 2],
+            [1, 2, 3, 1, 1, 1, 1, 1],
+            [1, 1, 1, 2, 2, 2, 2, 2],
+            [1, 2, 1, 2, 2, 3, 3, 1],
+            [0, 1, 2, 3, 2, 3, 4, 1],
+        ];
+        let pair = Pair::new(5, Purpose::Light(0));
+        for (n, of_samples) in (0u32..).zip(table) {
+            for (k, expected) in (1u32..).zip(of_samples) {
+                let mut points = Vec::new();
+                for z in 0..1u32 << k {
+                    let (mut x, mut y) = (32, 80);
+                    for bit in 0..4 {
+                        x += (z >> (2 * bit) & 1) << bit;
+                        y += (z >> (2 * bit + 1) & 1) << bit;
+                    }
+                    points.extend((0..1u32 << n).map(|sample| pair.point(x, y, sample)));
+                }
+                assert_eq!(quality(&points, n + k), expected, "n {n} k {k}");
+            }
         }
     }
 }

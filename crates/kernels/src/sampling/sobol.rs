@@ -17,6 +17,18 @@ pub fn pascal_upper<U: Bits>(i: U) -> U {
     i ^ (i & m(0xaaaa_aaaa)).shr::<1>()
 }
 
+/// What the second dimension takes for a pixel's Z-order number, reversed as that: the number times a matrix V, upper
+/// triangular in the number's own order (columns, lowest bit first: 1 2 6 8 1d 3e 7e f8), which leaves the order of
+/// tiles of 256 pixels as it is. With the number itself the points of 64 samples of 8x8 pixels would be clumped. How V
+/// was found and what it is worth: docs/noise.md, "Neighbours in two dimensions".
+#[inline(always)]
+pub fn second_of_pixel<U: Bits>(z: U) -> U {
+    let m = U::splat;
+    let z = z ^ (z.shl::<4>() & m(0xf000_0000));
+    let z = z ^ (z.shl::<1>() & m(0x5e00_0000));
+    z ^ (z.shl::<2>() & m(0x3c00_0000))
+}
+
 /// Owen scrambling of a reversed fraction, keyed: each bit is flipped by a hash of the bits that weigh more.
 /// Laine and Karras: Stratified Sampling for Stochastic Transparency (2011), with the constants of Vegdahl (2021).
 #[inline(always)]
@@ -147,6 +159,17 @@ mod tests {
                 assert_eq!(lower(1 << c) >> r & 1, u32::from(c & !r == 0), "lower {r} {c}");
                 assert_eq!(upper(1 << c) >> r & 1, u32::from(r & !c == 0), "upper {r} {c}");
             }
+        }
+    }
+
+    /// The matrix whose columns its text lists, and none of it leads out of a tile.
+    #[test]
+    fn the_second_dimension_of_pixels_is_upper_triangular() {
+        let columns = [0x1, 0x2, 0x6, 0x8, 0x1d, 0x3e, 0x7e, 0xf8];
+        for bit in 0..32 {
+            let mut word = [0];
+            second_of_pixel(ArrayU::<1>::splat((1u32 << bit).reverse_bits())).store(&mut word);
+            assert_eq!(word[0].reverse_bits(), columns.get(bit).copied().unwrap_or(1 << bit), "{bit}");
         }
     }
 

@@ -136,7 +136,7 @@ fn perspective_by_focal_length_axis_and_shift() {
 fn spread(desc: &SceneDesc, point: [f64; 3]) -> f64 {
     let mut desc = desc.clone();
     desc.lights = scene(8, vec![light(point, 0.02, [1.0; 3])], Vec::new()).lights;
-    let film = film(&compiled(&desc), 64, 1);
+    let film = film(&compiled(&desc), 512, 1);
     let [width, height] = film.size();
     let mut sums = [0.0; 4];
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {

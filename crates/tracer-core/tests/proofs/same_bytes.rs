@@ -310,7 +310,7 @@ fn meshes_written_out() {
         }
         let light = light([4.0, 7.0, 5.0], 1.0, [12.0, 11.0, 9.0]);
         let desc = scene(24, vec![light], objects.into()).camera([0.5, 3.0, 6.0], [0.0; 3], 45.0);
-        rendered(&compiled(&desc), &RenderOptions { samples: Some(4), ..options() })
+        rendered(&compiled(&desc), &RenderOptions { samples: Some(16), ..options() })
     };
     for shading in [Shading::Auto, Shading::Smooth] {
         for instances in [Instances::Always, Instances::Never] {

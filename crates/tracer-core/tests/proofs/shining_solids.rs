@@ -84,7 +84,7 @@ fn shining_solids_that_are_one_shape() {
     ] {
         let shape = shape.replace("LAMP", lamp);
         let solid = solid.replace("SHAPE", &shape).replace("LAMP", lamp);
-        assert_same_scenes(&format!("{name} as a solid"), &view(&shape), &view(&solid), 256);
+        assert_same_scenes(&format!("{name} as a solid"), &view(&shape), &view(&solid), 1024);
     }
 }
 
