@@ -166,6 +166,20 @@ fn kinds_told_by_a_field() {
         Syntax::Json,
     );
     check(&[("{ type = \"Box\", size = 2 }", "{ Box = { size = 2 } }")], Syntax::Toml);
+    check(
+        &[
+            (
+                "(shape: Sphere(center: (0, 1, 0), radius: 1), material: Mirror())",
+                "Sphere(center: (0, 1, 0), radius: 1, material: Mirror())",
+            ),
+            ("(geometry: Box(), material: Diffuse(albedo: 0.5))", "Box(material: Diffuse(albedo: 0.5))"),
+            ("Box(material: (bsdf: Diffuse(albedo: 0.5)))", "Box(material: Diffuse(albedo: 0.5))"),
+        ],
+        Syntax::Ron,
+    );
+    let found = errors(&scene("(shape: Sphere(raduis: 1), material: Mirror())", Syntax::Ron), Syntax::Ron);
+    let codes: Vec<&str> = found.iter().map(|fault| fault.code.as_str()).collect();
+    assert_eq!(codes, ["E0203", "E0201"], "{found:#?}");
     let rest = "\"objects\": [{\"Box\": {\"size\": 1}}]";
     let light = "{\"type\": \"SphereLight\", \"center\": [0, 5, 0], \"radius\": 1, \"radiance\": 5}";
     let text = format!("{{\"lights\": [{light}], {rest}}}");

@@ -21,7 +21,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
             "camera_position",
         ],
     ),
-    ("look_at", &["target", "lookat", "to", "interest", "aim", "center_of_interest"]),
+    ("look_at", &["target", "lookat", "to", "at", "interest", "aim", "center_of_interest"]),
     ("up", &["sky", "up_vector", "vup", "world_up", "up_direction", "upvec"]),
     ("matrix", &["to_world", "matrix_world", "transform", "world_matrix", "camera_to_world", "c2w", "pose"]),
     ("count", &["times", "n", "number", "repeat", "repetitions", "repeats", "num", "iterations"]),

@@ -94,6 +94,29 @@ impl Reader<'_> {
 }
 
 impl Reader<'_> {
+    /// Reports a group of fields one of which is a kind with fields of its own, `(shape: Sphere(radius: 1), material:
+    /// ..)`: which one, and where it stands.
+    pub(super) fn kind_within<'t, 's>(
+        &mut self,
+        item: Item<'t, 's>,
+        def: &'static EnumDef,
+    ) -> Option<(&'static VariantDef, Item<'t, 's>)> {
+        let kind_of = |value: &Item<'t, 's>| value.name().and_then(|name| def.variant(name));
+        let (key, value) = item.fields().take(MOST).find(|(_, value)| kind_of(value).is_some())?;
+        let variant = kind_of(&value).filter(|variant| matches!(variant.content, Content::Struct(_)))?;
+        let others = item.fields().take(MOST).filter(|(other, _)| other.index() != key.index());
+        let others: Vec<String> = others.map(|(key, value)| format!("{}: {}", key.lexeme(), value.lexeme())).collect();
+        let open = value.lexeme().strip_suffix(')')?.trim_end().trim_end_matches(',');
+        let between = if open.ends_with('(') || others.is_empty() { "" } else { ", " };
+        let written = format!("{open}{between}{})", others.join(", "));
+        let message = format!("the kind of {} stands before its fields, not in a field `{}`", of_kind(def), key.text());
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, key.span(), message);
+        fault.hint = format!("write `{}`", hinted(&written.replace('\n', " ")));
+        fault.edit = Some(Edit { span: item.span(), replacement: written });
+        self.report(fault);
+        Some((variant, value))
+    }
+
     /// The fields of a group whose name stands once more before them, `[camera.Camera]`, as kinds of objects do: tells
     /// that it does not belong there.
     pub(super) fn named_within<'t, 's>(&mut self, item: Item<'t, 's>, def: &'static StructDef) -> Option<Item<'t, 's>> {

@@ -57,7 +57,10 @@ impl Reader<'_> {
                     let span = item.span();
                     (name.into(), Span { end: span.start + name.len() as u32, ..span }, Body::Brackets(item))
                 }
-                None => return self.no_variant(item, def),
+                None => {
+                    let Some((variant, inner)) = self.kind_within(item, def) else { return self.no_variant(item, def) };
+                    return Some(Chosen { variant, body: Body::Brackets(inner), item });
+                }
             },
             Kind::Map if let Some(meant) = self.typed_elsewhere(item, def) => {
                 return meant.map(|variant| Chosen { variant, body: Body::Value(item), item });
