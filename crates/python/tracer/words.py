@@ -762,7 +762,7 @@ class _TransparentRequired(TypedDict):
 
 
 class Transparent(_TransparentRequired, total=False):
-    """A smooth dielectric: exact Fresnel reflection and refraction.
+    """A smooth dielectric: exact Fresnel reflection and refraction. What lies flat against another thing is glued to it: no air is between, and most of what a floor beneath sends up is reflected back within the glass. Lifted by a thousandth of its height it stands on the floor with air between.
 
     ior: Index of refraction of the inside against the outside, below 1 where the inside is the thinner: an air bubble in water is 1/1.33 = 0.752, water within glass 1.33/1.5 = 0.887.
     transmittance: Share of refracted light that passes each surface, per channel.

@@ -435,7 +435,7 @@ codes! {
     NO_VERTEX_COLORS "E0515" "colours of vertices that are not there";
     /// The picture of a texture or of a `HeightField` cannot be decoded as PNG, JPEG, HDR or EXR, or it is too large,
     /// too narrow, or has heights that are no numbers. Of an EXR file of several layers the first part with the
-    /// channels R, G and B is taken; it is an error if none has them.
+    /// channels R, G and B is taken, and of a file with one channel that, as grey; it is an error if there is neither.
     BROKEN_TEXTURE "E0520" "a picture cannot be read";
     /// A line of a placements file has 3 numbers (it moves by x, y, z), 4 (and scales by a factor), 8 (and turns about
     /// an axis by degrees) or 12 (a matrix of 3 rows and 4 columns), parted by blanks or commas. `#` begins a comment.

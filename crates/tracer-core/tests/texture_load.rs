@@ -309,6 +309,35 @@ fn wrong_pictures_of_floats_are_clear_errors() {
     assert!(expected.contains("R, G and B"), "{message}: {expected}");
 }
 
+/// A file of one channel, as NumPy and OpenEXR write an array of heights, whatever its name: grey, and numbers as they
+/// stand. Cut off, it is an error.
+#[test]
+fn one_channel_of_an_exr_is_grey() {
+    use exr::prelude::{
+        AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage, f16,
+    };
+    let numbers = [0.0f32, 0.25, 0.5, 0.75, 1.0, 0.125];
+    let written = |name: &str, samples: FlatSamples| {
+        let channels = AnyChannels::sort(std::iter::once(AnyChannel::new(name, samples)).collect());
+        let layer = Layer::new((3, 2), LayerAttributes::default(), Encoding::default(), channels);
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        Image::from_layer(layer).write().to_buffered(&mut bytes).expect("a file");
+        bytes.into_inner()
+    };
+    let half = FlatSamples::F16(numbers.map(f16::from_f32).to_vec());
+    for file in [written("Y", FlatSamples::F32(numbers.to_vec())), written("depth.Z", half)] {
+        let texture = decode(&file, Path::new("p.exr")).expect("a picture");
+        let Texels::Linear(texels) = &texture.texels else { panic!("floats") };
+        assert_eq!((texture.width, texture.height), (3, 2));
+        assert!(texels.iter().zip(numbers).all(|(texel, x)| texel[..3] == [x; 3]), "{texels:?}");
+        let heights = tracer_core::texture::decode_heights(&file, Path::new("p.exr")).expect("heights").heights;
+        assert_eq!((heights.width, heights.depth, heights.values.as_slice()), (3, 2, &numbers[..]));
+        for end in [20, file.len() / 2, file.len() - 3] {
+            assert_eq!(error(&file[..end])[0], "E0520", "{end}");
+        }
+    }
+}
+
 /// Decoders fill the rest of a JPEG that is cut off with grey: here it is an error, wherever the cut is.
 #[test]
 fn truncated_pictures_are_errors() {

@@ -26,8 +26,19 @@ fn mutated_pictures() {
         file.into_inner()
     };
     let (hdr, exr) = (of_floats(image::ImageFormat::Hdr), of_floats(image::ImageFormat::OpenExr));
+    let grey = {
+        use exr::prelude::{
+            AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
+        };
+        let samples = FlatSamples::F32(pixels.iter().take(16 * 12).map(|byte| f32::from(*byte) / 200.0).collect());
+        let channels = AnyChannels::sort(std::iter::once(AnyChannel::new("Y", samples)).collect());
+        let layer = Layer::new((16, 12), LayerAttributes::default(), Encoding::default(), channels);
+        let mut file = std::io::Cursor::new(Vec::new());
+        Image::from_layer(layer).write().to_buffered(&mut file).expect("encoded");
+        file.into_inner()
+    };
     // Checksums make nearly every change of a PNG an error; a JPEG often decodes to something.
-    for (seed, original, least) in [(6, png, 0), (7, jpeg, 50), (8, hdr, 50), (9, exr, 50)] {
+    for (seed, original, least) in [(6, png, 0), (7, jpeg, 50), (8, hdr, 50), (9, exr, 50), (10, grey, 50)] {
         let count = mutants() / 5;
         let good = run(seed, count, &original, |bytes| match decode(bytes, Path::new("p")) {
             Ok(texture) => {

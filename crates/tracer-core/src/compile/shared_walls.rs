@@ -150,12 +150,46 @@ impl Body {
         if !self.of_solid && !other.of_solid && self.unit == other.unit && self.map == other.map {
             return false;
         }
-        let there = DMat4::from(other.map.inverse() * self.map);
-        let is_there = |one: &DMat4| {
+        let whole = other.map.inverse() * self.map;
+        let there = DMat4::from(whole);
+        let is_there = |(one, patch): &(DMat4, Patch)| {
             let mut others = surfaces(&other.unit).into_iter();
-            others.any(|another| is_one(*one, there.transpose() * another * there))
+            others.any(|(another, its)| is_one(*one, there.transpose() * another * there) && patch.meets(&its, &whole))
         };
         surfaces(&self.unit).iter().any(is_there)
+    }
+}
+
+/// Which part of a round surface a shape has, in the space of the shape.
+#[derive(Clone, Copy, Debug)]
+enum Patch {
+    Whole,
+    /// Between two heights.
+    Between([f64; 2]),
+    /// Half a ball, on this side along z.
+    Half(f64),
+}
+
+/// Pieces of one pipe that reach into each other by a smaller share of the shorter one meet end to end, but for the
+/// digits that their ends were written with.
+const END_TO_END: f64 = 1e-3;
+
+impl Patch {
+    /// Whether it and a part of the same surface have more in common than a ring; `there`: to the space of the other's
+    /// shape.
+    fn meets(&self, other: &Patch, there: &DAffine3) -> bool {
+        match (*self, *other) {
+            (Patch::Between([low, high]), Patch::Between([its_low, its_high])) => {
+                let [a, b] = [low, high].map(|z| there.transform_point3(DVec3::new(0.0, 0.0, z)).z);
+                let both = a.max(b).min(its_high) - a.min(b).max(its_low);
+                both > END_TO_END * (a - b).abs().min(its_high - its_low)
+            }
+            (Patch::Half(side), Patch::Half(its)) => {
+                let out = there.transform_vector3(DVec3::new(0.0, 0.0, side));
+                out.normalize_or_zero().z * its > END_TO_END - 1.0
+            }
+            _ => true,
+        }
     }
 }
 
@@ -167,8 +201,8 @@ fn is_one(one: DMat4, other: DMat4) -> bool {
     size(&(one - other)) <= ALIKE || size(&(one + other)) <= ALIKE
 }
 
-/// Its round surfaces as x^T Q x = 0 in the space of the shape.
-fn surfaces(unit: &UnitShape) -> Vec<DMat4> {
+/// Its round surfaces as x^T Q x = 0 in the space of the shape, and what it has of each.
+fn surfaces(unit: &UnitShape) -> Vec<(DMat4, Patch)> {
     let ball = |z: f64| DMat4 {
         x_axis: DVec4::X,
         y_axis: DVec4::Y,
@@ -183,9 +217,15 @@ fn surfaces(unit: &UnitShape) -> Vec<DMat4> {
         w_axis: DVec4::new(0.0, 0.0, -slope * middle, -middle * middle),
     };
     match *unit {
-        UnitShape::Sphere => vec![ball(0.0)],
-        UnitShape::Cone { radii: [low, high], .. } => vec![cone(0.5 * (low + high), 0.5 * (high - low))],
-        UnitShape::Capsule { half } => vec![cone(1.0, 0.0), ball(-half), ball(half)],
+        UnitShape::Sphere => vec![(ball(0.0), Patch::Whole)],
+        UnitShape::Cone { radii: [low, high], .. } => {
+            vec![(cone(0.5 * (low + high), 0.5 * (high - low)), Patch::Between([-1.0, 1.0]))]
+        }
+        UnitShape::Capsule { half } => vec![
+            (cone(1.0, 0.0), Patch::Between([-half, half])),
+            (ball(-half), Patch::Half(-1.0)),
+            (ball(half), Patch::Half(1.0)),
+        ],
         UnitShape::Cube | UnitShape::Disk { .. } | UnitShape::Torus { .. } | UnitShape::Plane | UnitShape::Solid(_) => {
             Vec::new()
         }
@@ -195,7 +235,7 @@ fn surfaces(unit: &UnitShape) -> Vec<DMat4> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DMat3;
+    use glam::{DMat3, DQuat};
 
     fn body(unit: UnitShape, size: DVec3, at: DVec3) -> Body {
         let map = DAffine3 { matrix3: DMat3::from_diagonal(size), translation: at };
@@ -221,5 +261,29 @@ mod tests {
         assert!(!ball(0.5).shares_a_wall(&ball(0.5)), "one of them is left out");
         let capsule = body(UnitShape::Capsule { half: 1.0 }, DVec3::splat(0.4), DVec3::new(3.0, 2.0, 0.5));
         assert!(capsule.shares_a_wall(&hole));
+    }
+
+    /// Two halves of a bond, in the colours of their atoms, whose ends were written to four digits; capsules meet in a
+    /// ring there. Askew, so that the boxes around them reach into each other.
+    #[test]
+    fn what_meets_end_to_end_shares_no_wall() {
+        let along = |unit: UnitShape, from: DVec3, to: DVec3, half: f64| {
+            let turn = DQuat::from_rotation_arc(DVec3::Z, (to - from).normalize());
+            let scale = DVec3::new(0.1, 0.1, 0.5 * (to - from).length() / half);
+            let map = DAffine3::from_scale_rotation_translation(scale, turn, 0.5 * (from + to));
+            Body { unit, map, bounds: unit.bounds(&map), ..can(1.0, [0.0, 1.0]) }
+        };
+        let (from, to) = (DVec3::new(-0.3068, -1.6836, -0.7169), DVec3::new(-1.3752, -1.0212, -0.0571));
+        let middle = 0.5 * (from + to);
+        let cone = UnitShape::Cone { radii: [1.0, 1.0], caps: true, upright: true };
+        let over = |share: f64| middle + share * (to - middle);
+        assert!(!along(cone, from, over(1e-4), 1.0).shares_a_wall(&along(cone, to, middle, 1.0)));
+        assert!(along(cone, from, over(0.1), 1.0).shares_a_wall(&along(cone, to, middle, 1.0)));
+        let half = 0.25 * (to - from).length() / 0.1;
+        let capsule = |from: DVec3, to: DVec3| along(UnitShape::Capsule { half }, from, to, half);
+        assert!(!capsule(from, middle).shares_a_wall(&capsule(to, middle)));
+        assert!(!capsule(from, middle).shares_a_wall(&capsule(middle, to)));
+        // At an angle there are lunes of one ball on both.
+        assert!(capsule(from, middle).shares_a_wall(&capsule(middle, middle + DVec3::X * (to - middle).length())));
     }
 }

@@ -22,10 +22,13 @@
 //!
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
 //! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
-//! third of such n, by Gauss. Below [`FEW`], the noise is never told as less than that of independent samples. Nor is
-//! it where pixels err together since they see the same moments: what is there for a thirtieth of a time all may miss.
+//! third of such n, by Gauss. Below [`FEW`], the noise is never told as less than that of independent samples. The halves
+//! of one pixel that bears most of it may agree to the last bit (a lamp smaller than a pixel, hit equally often), and
+//! nothing is seen of it then: so it is, too, where few pixels bear what independent samples would have. Nor is it told
+//! as less where pixels err together since they see the same moments: what is there for a thirtieth of a time all may
+//! miss.
 
-use super::{Film, PIXELS, Tile, luminance};
+use super::{Crop, Film, PIXELS, Tile, luminance};
 use rayon::prelude::*;
 
 /// m of eighteen pixels: they tell the noise to a sixth of itself, half of sqrt(2/18).
@@ -221,16 +224,29 @@ impl Film {
     pub fn relative_noise(&self) -> f64 {
         // In the sums' own unit: squares of the scene's might leave the range of numbers.
         let mean = self.pixels().map(|(x, y)| self.mean_luminance(x, y)).sum::<f64>() / self.count();
-        let independent = || {
-            let variance = |(x, y)| self.variance(x, y) / self.unit / self.unit;
-            self.pixels().map(variance).sum::<f64>() / self.count()
-        };
+        let borne = self.independent();
+        let independent = borne.sum / self.count();
         let variance = match self.seen_variance() {
-            Some((seen, pixels)) if pixels >= FEW && self.moments == 0 => seen,
-            Some((seen, _)) => seen.max(independent()),
-            None => independent(),
+            Some((seen, pixels)) if pixels.min(borne.pixels() / 3.0) >= FEW && self.moments == 0 => seen,
+            Some((seen, _)) => seen.max(independent),
+            None => independent,
         };
         if mean > 0.0 { (variance * self.covered()).sqrt() / mean } else { 0.0 }
+    }
+
+    /// What pixels bear of the variance that independent samples would have, in the sums' own unit.
+    fn independent(&self) -> Borne {
+        let Crop { x, y, width, height } = self.crop;
+        let of_row = |y: u32| {
+            let mut borne = Borne::default();
+            (x..x + width).for_each(|x| borne.add(self.variance(x, y) / self.unit / self.unit));
+            borne
+        };
+        // One after the other, so that threads cannot show.
+        let of_rows: Vec<Borne> = (y..y + height).into_par_iter().map(of_row).collect();
+        let mut borne = Borne::default();
+        of_rows.iter().for_each(|row| borne.merge(row));
+        borne
     }
 
     /// The few pixels without which the noise is a tenth or less of what it is; `None` where there are none such.
@@ -300,8 +316,10 @@ impl Film {
                 None => by_octave += of_octave * f64::from(samples) / f64::from(n.max(1)),
             }
         }
-        let here = if borne.sum > 0.0 { borne.pixels() } else { pixels };
-        Some(((borne.sum + by_octave) / self.count(), here.min(pixels)))
+        if by_octave > 0.0 {
+            borne.merge(&Borne { sum: by_octave, squares: by_octave * by_octave / pixels.max(1.0) });
+        }
+        Some((borne.sum / self.count(), if borne.sum > 0.0 { borne.pixels().min(pixels) } else { pixels }))
     }
 }
 

@@ -19,6 +19,7 @@ mod environment;
 mod error;
 mod extent;
 mod floats;
+mod grey;
 mod heights;
 mod pixels;
 mod reading;
@@ -82,7 +83,8 @@ impl Texture {
 ///
 /// Grey and palette pictures become RGB; alpha is ignored (with a warning when it is not opaque everywhere); colours
 /// are taken as sRGB, whatever profile the file names; the orientation that a camera noted in a JPEG is applied. HDR
-/// and EXR are linear, and clipped to 0 to 1 (with a warning); of an EXR file the first part with R, G and B is taken.
+/// and EXR are linear, and clipped to 0 to 1 (with a warning); of an EXR file the first part with R, G and B is taken,
+/// and its only channel, whatever its name, as grey.
 ///
 /// # Errors
 /// When there is no such file, it cannot be read, it is of another format or broken, or it has more than
@@ -154,12 +156,22 @@ fn checked_up_to(bytes: &[u8], path: &Path, format: ImageFormat, most: u64) -> R
     let floats = matches!(format, ImageFormat::Hdr | ImageFormat::OpenExr);
     limits.max_alloc = Some(if floats { 20 } else { 10 } * most_pixels);
     reader.limits(limits);
+    let fits = |width: u32, height: u32| {
+        let pixels = u64::from(width) * u64::from(height);
+        if width > MAX_SIDE || height > MAX_SIDE || pixels > most_pixels || pixels == 0 {
+            return Err(TextureError::Size { path: path.to_owned(), width, height, bytes: bytes.len() as u64 });
+        }
+        Ok(())
+    };
+    if format == ImageFormat::OpenExr
+        && let Some([width, height]) = grey::size(bytes)
+    {
+        fits(width, height)?;
+        return grey::decode(bytes).map_err(broken);
+    }
     let mut decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
-    let pixels = u64::from(width) * u64::from(height);
-    if width > MAX_SIDE || height > MAX_SIDE || pixels > most_pixels || pixels == 0 {
-        return Err(TextureError::Size { path: path.to_owned(), width, height, bytes: bytes.len() as u64 });
-    }
+    fits(width, height)?;
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
     picture.apply_orientation(orientation);

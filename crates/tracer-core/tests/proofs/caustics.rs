@@ -170,9 +170,9 @@ fn random_scenes_48_to_53() {
     }
 }
 
-/// A lamp a tenth as wide, whose light plain path tracing hardly ever finds under a ball, so that only the mean over
-/// many seeds tells its error. 13 times less; a third of that is asked for. The seeds are fixed, so the test gives the
-/// same every time.
+/// A lamp a tenth as wide, whose light plain path tracing hardly ever finds under a ball: there both err by what is
+/// rare, so the worst hundredth of the pixels of 64 seeds is left out (with it 128 seeds gave 58,058 to 184 and 20,599
+/// to 89 by two samplers; without it 11.0 to 3.2 and 11.0 to 3.3). Half of that is asked for.
 #[test]
 #[ignore = "long: cargo xtask prove proofs"]
 fn photons_are_worth_it() {
@@ -190,11 +190,16 @@ fn photons_are_worth_it() {
             let squared: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
             squared / (b.iter().sum::<f64>().powi(2) + 1e-3)
         };
-        (0..32).flat_map(|y| (0..32).map(move |x| (x, y))).map(pixel).sum::<f64>()
+        (0..32).flat_map(|y| (0..32).map(move |x| (x, y))).map(pixel).collect::<Vec<f64>>()
     };
-    let mean = |caustics: Caustics| (100..164).map(|seed| error(caustics, seed)).sum::<f64>() / 64.0;
-    let (plain, photons) = (mean(Caustics::None), mean(Caustics::Photons));
+    let trimmed = |caustics: Caustics| {
+        let mut all: Vec<f64> = (100..164).flat_map(|seed| error(caustics, seed)).collect();
+        all.sort_by(f64::total_cmp);
+        all.truncate(all.len() - all.len() / 100);
+        all.iter().sum::<f64>() / 64.0
+    };
+    let (plain, photons) = (trimmed(Caustics::None), trimmed(Caustics::Photons));
     let gain = plain / photons;
     println!("{gain:.1} times less squared error: {plain} {photons}");
-    assert!(gain > 4.0, "only {gain:.2} times less squared error");
+    assert!(gain > 1.7, "only {gain:.2} times less squared error");
 }

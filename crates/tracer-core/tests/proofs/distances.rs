@@ -83,9 +83,9 @@ fn within_a_lamp_of_any_size_all_is_white() {
             let estimate = Estimate::of(&(1..=8).map(mean).collect::<Vec<_>>());
             let off = (estimate.mean - 1.0).abs();
             // Eight means: of seven freedoms each, 7 standard errors are passed by chance once in 600 runs. It was 1.5
-            // to 4 per cent. Of a sky and a mirror all are one, to the last bit.
+            // to 4 per cent. Where all are one (a sky and a mirror) what is left is the rounding of a hundred vertices.
             assert!(
-                estimate.error() < 1e-3 && off <= 7.0 * estimate.error(),
+                estimate.error() < 1e-3 && off <= 7.0 * estimate.error() + 100.0 * f64::from(f32::EPSILON),
                 "{radius}, {material}: {} +- {}",
                 estimate.mean,
                 estimate.error()

@@ -46,6 +46,8 @@ struct Inner {
     shell: Shell,
     told: Mutex<CacheReport>,
     writers: Mutex<Vec<JoinHandle<()>>>,
+    /// Held while a file is written.
+    writing: Mutex<()>,
 }
 
 /// What came from a cache.
@@ -92,6 +94,7 @@ impl Cache {
             shell: *shell,
             told: Mutex::default(),
             writers: Mutex::default(),
+            writing: Mutex::default(),
         }))))
     }
 
@@ -150,6 +153,8 @@ impl Inner {
     fn write(&self, name: &str, bytes: u64, fill: Fill) -> io::Result<()> {
         let place = Place::unchecked(&self.folder.join(name))?;
         let Some(_lock) = place.try_lock()? else { return Ok(()) };
+        // One at a time: two would find the same room.
+        let _writing = lock(&self.writing);
         room::make(&self.folder, self.most, bytes)?;
         place.write(false, |file| fill(file))?;
         self.shell.explain(|| format!("kept for the next time: {name}, {}", human(bytes)));
