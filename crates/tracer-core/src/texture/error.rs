@@ -152,7 +152,7 @@ impl TextureError {
                 if fault.message.contains(NO_RGB) {
                     return fault
                         .expected(
-                            "an EXR file with the channels R, G and B, or with one channel, not deep: the first part with R, G and B is taken",
+                            "an EXR file, not deep, of one channel, or with R, G and B: the first part that has them is taken",
                         )
                         .hint("save the layer that is meant as a picture of its own");
                 }

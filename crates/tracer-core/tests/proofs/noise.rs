@@ -51,8 +51,9 @@ fn error(films: &[Film]) -> f64 {
 }
 
 /// Behind a power of two, at one, and between two of them. Where few of 4096 pixels bear the error (a lamp's border,
-/// glints of glass) four seeds know the ratio to a tenth only (of `gallery/cornell` with 28 samples it was 0.98 to 1.39
-/// in eight times four, 1.19 in all). As for independent samples (`Film::variance`) they were 1.15 to 2.9 in five scenes.
+/// glints of glass) four seeds know the ratio to a tenth only: of `gallery/cornell` with 28 samples it was 0.98 to 1.39
+/// in eight times four, 1.19 in all. As for independent samples (`Film::variance`) they were 1.15 to 2.9 in five
+/// scenes.
 #[test]
 #[ignore = "long: cargo xtask prove proofs"]
 fn what_is_told_is_the_error() {

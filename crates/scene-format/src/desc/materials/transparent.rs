@@ -7,8 +7,8 @@ use crate::schema::Rule;
 use crate::words::{Told, scene_struct};
 
 scene_struct! {
-    /// A smooth dielectric: exact Fresnel reflection and refraction. What lies flat against another thing is glued to it:
-    /// no air is between, and most of what a floor beneath sends up is reflected back within the glass. Lifted by a
+    /// A smooth dielectric: exact Fresnel reflection and refraction. What lies flat against another thing is glued to
+    /// it: no air is between, and most of what a floor beneath sends up is reflected back within the glass. Lifted by a
     /// thousandth of its height it stands on the floor with air between.
     pub struct Transparent as "Transparent", "a transparent material" {
         /// Index of refraction of the inside against the outside, below 1 where the inside is the thinner: an air
