@@ -23,8 +23,8 @@
 //! Where few pixels bear the error, two pictures may agree by chance: of n pixels that err alike much, the standard
 //! deviation of what is seen of the variance is sqrt(2/n) of it. m = (sum d^2)^2 / sum d^4 of the differences d is a
 //! third of such n, by Gauss. Below [`FEW`], the noise is never told as less than that of independent samples. The
-//! halves of one pixel that bears most of it may agree to the last bit (a lamp smaller than a pixel, hit equally often),
-//! and nothing is seen of it then: so it is, too, where few pixels bear what independent samples would have. Nor is it
+//! halves of one pixel that bears most of it may agree to the last bit (a lamp smaller than a pixel, hit as often), and
+//! nothing is seen of it then: so it is, too, where few pixels bear what independent samples would have. Nor is it
 //! told as less where pixels err together since they see the same moments: what is there for a thirtieth of a time all
 //! may miss.
 
