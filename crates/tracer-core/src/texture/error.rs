@@ -152,7 +152,7 @@ impl TextureError {
                 if fault.message.contains(NO_RGB) {
                     return fault
                         .expected(
-                            "an EXR file, not deep, of one channel or with R, G and B: the first part with them is taken",
+                            "an EXR file, not deep, of one channel or with R, G and B: the first such part is taken",
                         )
                         .hint("save the layer that is meant as a picture of its own");
                 }
