@@ -30,6 +30,7 @@ BlackmanHarrisItem = TypedDict("BlackmanHarrisItem", {"BlackmanHarris": "Blackma
 BlinnPhongItem = TypedDict("BlinnPhongItem", {"BlinnPhong": "BlinnPhong"})
 BoxItem = TypedDict("BoxItem", {"Box": "Box"})
 CapsuleItem = TypedDict("CapsuleItem", {"Capsule": "Capsule"})
+CenterToItem = TypedDict("CenterToItem", {"CenterTo": "Either[CenterTo, Sequence[Either[float, str]], Array, str]"})
 CheckerboardItem = TypedDict("CheckerboardItem", {"Checkerboard": "Checkerboard"})
 ColorRampItem = TypedDict("ColorRampItem", {"ColorRamp": "ColorRamp"})
 ConductorItem = TypedDict("ConductorItem", {"Conductor": "Conductor"})
@@ -863,7 +864,7 @@ class Sphere(_SphereRequired, total=False):
     name: Any
 
 
-Transform = Either["TranslateItem", "ScaleItem", "RotateItem", "DropToItem", "MatrixItem", "AlignItem", "FitToItem"]
+Transform = Either["TranslateItem", "ScaleItem", "RotateItem", "DropToItem", "CenterToItem", "MatrixItem", "AlignItem", "FitToItem"]
 
 class _ScaleRequired(TypedDict):
     factor: Either[float, str, Sequence[Either[float, str]], Array, PickItem]
@@ -903,6 +904,17 @@ class DropTo(_DropToRequired, total=False):
     """Moves along y so that the lowest point lies at this height.
 
     y: Height of the lowest point. Unit: the scene's unit.
+    """
+
+
+class _CenterToRequired(TypedDict):
+    point: Either[Sequence[Either[float, str]], Array, str, PickItem]
+
+
+class CenterTo(_CenterToRequired, total=False):
+    """Moves so that the middle of its bounds lies at this point: half way between the lowest and the highest that it reaches along x, y and z of the world. Meshes of CAD and of scans lie far from the origin: `FitTo(size: 2)`, `CenterTo((0, 0, 0))` and `DropTo(0)` set any of them in the middle of the floor.
+
+    point: Where the middle of its bounds is then. Unit: the scene's unit.
     """
 
 
@@ -1016,7 +1028,7 @@ class Scatter(_ScatterRequired, total=False):
 
 
 class Plane(TypedDict, total=False):
-    """A plane without an end, to the horizon: a floor, a wall, water. Seen against its normal, right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright; texture coordinates grow to the right and upwards by 1 for each unit of the scene, from (0, 0) at `point`. It is open: it has no inside. What lies in it is seen where it is as opaque, or shines. It cannot be dropped or fitted, as it has neither a lowest point nor an extent.
+    """A plane without an end, to the horizon: a floor, a wall, water. Seen against its normal, right is (0, 1, 0) x normal, or (1, 0, 0) where the normal is upright; texture coordinates grow to the right and upwards by 1 for each unit of the scene, from (0, 0) at `point`. It is open: it has no inside. What lies in it is seen where it is as opaque, or shines. It cannot be dropped, centred or fitted, as it has neither a lowest point nor a middle nor an extent.
 
     point: A point of it. Unit: the scene's unit.
     normal: Direction that it faces.
@@ -1451,7 +1463,7 @@ class Union(_UnionRequired, total=False):
 
     objects: The shapes, at least one: `Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule`, `Torus`, `Union`, `Intersection`, `Difference`, with their transforms and without placements; 64 at most, those within each other counted. Where surfaces coincide that of the first shows. Solids that have an end may have a `Plane`, too, which is all of space behind it, as seen from where its normal points.
     material: The material of those shapes in it that have none of their own.
-    transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by the boxes of the shapes.
+    transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo`, `CenterTo` and `FitTo` go by the boxes of the shapes.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the whole, by this name.
@@ -1473,7 +1485,7 @@ class Intersection(_IntersectionRequired, total=False):
 
     objects: The shapes, as those of a `Union`. Where surfaces coincide that of the first shows.
     material: The material of those shapes in it that have none of their own.
-    transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by what the boxes of the shapes have in common.
+    transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo`, `CenterTo` and `FitTo` go by what the boxes of the shapes have in common.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the whole, by this name.
@@ -1495,7 +1507,7 @@ class Difference(_DifferenceRequired, total=False):
 
     objects: The shapes, as those of a `Union`: first what is cut, then what is taken away. Where both have a face in one place, and what is taken away lies behind it, it is gone: no skin is left.
     material: The material of those shapes in it that have none of their own.
-    transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo` and `FitTo` go by the box of the first shape.
+    transform: Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without `about` are about the origin. `DropTo`, `CenterTo` and `FitTo` go by the box of the first shape.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees it. If not, camera rays pass as if it were not there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.transform=[]` finds it where no other has this name. Masks know the whole, by this name.
@@ -1513,7 +1525,7 @@ class Group(TypedDict, total=False):
 
     objects: What is in it.
     material: The material of those objects in it that have none of their own.
-    transform: Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without `about` are about the origin; `DropTo` and `FitTo` go by all that stands in it.
+    transform: Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without `about` are about the origin; `DropTo`, `CenterTo` and `FitTo` go by all that stands in it.
     placements: Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     lights: Lights that move with it. Each copy has one, as bright as it is written.
     camera_visible: Whether the camera sees what is in it. If not, camera rays pass as if nothing were there; it still throws shadows, shines, and is seen in mirrors and through glass.
@@ -1539,7 +1551,7 @@ class Include(_IncludeRequired, total=False):
     file: The scene file, in any syntax. Paths in it start from its own folder.
     vars: Other values for its `vars`.
     materials: Other materials for names of its `materials`: names of this scene, or written here.
-    transform: Transforms of all of it, applied first to last. Turns and scales without `about` are about the origin; `DropTo` and `FitTo` go by all that stands in it.
+    transform: Transforms of all of it, applied first to last. Turns and scales without `about` are about the origin; `DropTo`, `CenterTo` and `FitTo` go by all that stands in it.
     placements: Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
     camera_visible: Whether the camera sees what is in it. If not, camera rays pass as if nothing were there; it still throws shadows, shines, and is seen in mirrors and through glass.
     name: What it is called: `--set objects.NAME.placements=[]` finds it where no other has this name.

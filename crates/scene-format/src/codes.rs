@@ -244,8 +244,9 @@ codes! {
     /// Scene(repeat: 3, objects: [Sphere(center: (0, 0, 0), radius: 1)])
     /// ```
     RESERVED_WORD "E0210" "a word that is kept for later versions";
-    /// `DropTo` or `FitTo` stands in the `transform` or the `placements` of a `Plane`, or of a `Group` or an `Include`
-    /// in which one stands. It has no lowest point and no extent: move it by `Translate`, or take it out of the group.
+    /// `DropTo`, `CenterTo` or `FitTo` stands in the `transform` or the `placements` of a `Plane`, or of a `Group` or
+    /// an `Include` in which one stands. It has no lowest point, no middle and no extent: move it by `Translate`, or
+    /// take it out of the group.
     ///
     /// ```ron
     /// Scene(
@@ -253,7 +254,7 @@ codes! {
     ///     objects: [Group(objects: [Plane(normal: (0, 1, 0))], transform: [DropTo(y: 0)])],
     /// )
     /// ```
-    GROUP_DROP "E0211" "a plane that is dropped or fitted";
+    GROUP_DROP "E0211" "a plane that is dropped, centred or fitted";
     /// A field stands beside another one that leaves it nothing to say: a `fov` where a panorama shows all directions.
     ///
     /// ```ron

@@ -97,7 +97,7 @@ pub(crate) const CHOICES: [&EnumDef; 39] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 154] = [
+const SNIPPETS: [(&str, &str, &str); 155] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -326,6 +326,7 @@ const SNIPPETS: [(&str, &str, &str); 154] = [
     ("TransformWords", "Scale", "Scale((1, 2, 1))"),
     ("TransformWords", "Rotate", "Rotate(axis: (0, 1, 0), degrees: 30)"),
     ("TransformWords", "DropTo", "DropTo(y: -1)"),
+    ("TransformWords", "CenterTo", "CenterTo((0, 0.5, 0))"),
     ("TransformWords", "Matrix", "Matrix(rows: ((1, 0.5, 0, 0), (0, 1, 0, 0.2), (0, 0, -1, 0)))"),
     ("TransformWords", "Align", "Align(to: (1, 1, 0))"),
     ("TransformWords", "FitTo", "FitTo(height: 1.5)"),

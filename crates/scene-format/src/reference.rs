@@ -179,7 +179,7 @@ around that: up to
   sixteen deep, and a hundred million objects in all, copies counted. Copies of meshes share their triangles as they \
 do elsewhere.
 - Turns and scales of a group without `about` are about the origin. Its `lights` are moved and copied with it. \
-`DropTo` and `FitTo` go by all that stands in
+`DropTo`, `CenterTo` and `FitTo` go by all that stands in
   it: a table of boxes comes to stand on the floor by one `DropTo(0)`.
 
 `include: [\"house.ron\"]` at the scene's top takes `vars`, `textures`, `materials`, `cameras` and settings of other \

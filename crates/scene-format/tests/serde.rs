@@ -134,8 +134,13 @@ fn parts_go_round() {
     );
     let named = NamedMaterial { name: "red".to_owned().into(), material: Material::default() };
     assert_eq!(serde_json::to_string(&named).expect("JSON"), "{\"red\":{\"Diffuse\":{}}}");
-    let steps: Vec<Transform> = ron::from_str("[Scale(2), Translate((1, 2, 3)), DropTo(y: 0)]").expect("RON");
-    assert_eq!(steps[1], Transform::Translate([1.0, 2.0, 3.0]));
+    let steps: Vec<Transform> =
+        ron::from_str("[Scale(2), Translate((1, 2, 3)), CenterTo((4, 5, 6)), DropTo(y: 0)]").expect("RON");
+    assert_eq!(steps[1..3], [Transform::Translate([1.0, 2.0, 3.0]), Transform::CenterTo { point: [4.0, 5.0, 6.0] }]);
+    let in_json: Vec<Transform> =
+        serde_json::from_str(r#"[{ "CenterTo": [4, 5, 6] }, { "CenterTo": { "point": [4, 5, 6] } }]"#).expect("JSON");
+    assert_eq!(in_json, [steps[2].clone(), steps[2].clone()]);
+    goes_round(&steps[2]);
 }
 
 /// What a description keeps of where it was written: nothing, as if it had been made in a program.

@@ -29,7 +29,7 @@ scene_struct! {
         /// The material of those objects in it that have none of their own.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms of all of it, applied first to last, after those of the objects in it. Turns and scales without
-        /// `about` are about the origin; `DropTo` and `FitTo` go by all that stands in it.
+        /// `about` are about the origin; `DropTo`, `CenterTo` and `FitTo` go by all that stands in it.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A
         /// text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a
@@ -168,6 +168,7 @@ pub(crate) fn hide(camera_visible: bool, objects: &mut [Spanned<Object>]) {
 pub fn endless_group(step: &Spanned<Transform>) -> Diagnostic {
     let message = match step.value {
         Transform::FitTo { .. } => "a group with a plane in it has no extent that could be fitted",
+        Transform::CenterTo { .. } => "a group with a plane in it has no middle that could be centred",
         _ => "a group with a plane in it has no lowest point",
     };
     Diagnostic::error(codes::GROUP_DROP, step.span, message)

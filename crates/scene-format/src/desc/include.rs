@@ -21,7 +21,7 @@ scene_struct! {
         /// Other materials for names of its `materials`: names of this scene, or written here.
         materials: GivenMaterials = GivenMaterials(Vec::new());
         /// Transforms of all of it, applied first to last. Turns and scales without `about` are about the origin;
-        /// `DropTo` and `FitTo` go by all that stands in it.
+        /// `DropTo`, `CenterTo` and `FitTo` go by all that stands in it.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies of all of it: each placement is applied after `transform`. Empty: one, where `transform` puts it. A
         /// text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a

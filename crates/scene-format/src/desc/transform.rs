@@ -35,6 +35,11 @@ pub enum Transform {
         /// Height of the lowest point.
         y: f64,
     },
+    /// Moves so that the middle of its bounds in the world lies at this point.
+    CenterTo {
+        /// Where the middle is then.
+        point: Vec3,
+    },
     /// An affine map.
     Matrix {
         /// What becomes of x, y and z: three factors, and how far it moves.
@@ -58,6 +63,20 @@ pub enum Transform {
         /// Fixed point; `None`: the shape's middle (of meshes the mean of the vertices).
         about: Option<Box<Vec3>>,
     },
+}
+
+impl Transform {
+    /// Whether it asks how far what it moves reaches in the world.
+    pub fn asks_for_reach(&self) -> bool {
+        match self {
+            Transform::DropTo { .. } | Transform::CenterTo { .. } | Transform::FitTo { .. } => true,
+            Transform::Translate(_)
+            | Transform::Scale { .. }
+            | Transform::Rotate { .. }
+            | Transform::Matrix { .. }
+            | Transform::Align { .. } => false,
+        }
+    }
 }
 
 /// An extent in the world.
@@ -100,6 +119,13 @@ scene_enum! {
         DropTo as "a drop" bare y {
             /// Height of the lowest point.
             y: f64 => Rule::within("a height", -1e12, 1e12).unit("in the scene's unit");
+        };
+        /// Moves so that the middle of its bounds lies at this point: half way between the lowest and the highest that
+        /// it reaches along x, y and z of the world. Meshes of CAD and of scans lie far from the origin:
+        /// `FitTo(size: 2)`, `CenterTo((0, 0, 0))` and `DropTo(0)` set any of them in the middle of the floor.
+        CenterTo as "a centring" bare point {
+            /// Where the middle of its bounds is then.
+            point: Vec3 => Rule::point();
         };
         /// An affine map, about the origin: the point (px, py, pz) comes to a px + b py + c pz + x, and so on. It may
         /// turn, scale, mirror, shear and move. Blender's `matrix_world` and Mitsuba's `to_world` have these rows and a
@@ -158,6 +184,7 @@ impl Words for Transform {
                 Transform::Rotate { axis, degrees, about: about.map(Box::new) }
             }
             TransformWords::DropTo { y } => Transform::DropTo { y },
+            TransformWords::CenterTo { point } => Transform::CenterTo { point },
             TransformWords::Matrix { rows } => Transform::Matrix { rows: rows.0 },
             TransformWords::Align { from, to, about } => {
                 Transform::Align { from: Box::new(from), to: Box::new(to), about: about.map(Box::new) }
@@ -176,6 +203,7 @@ impl Words for Transform {
                 TransformWords::Rotate { axis: *axis, degrees: *degrees, about: about.as_deref().copied() }
             }
             Transform::DropTo { y } => TransformWords::DropTo { y: *y },
+            Transform::CenterTo { point } => TransformWords::CenterTo { point: *point },
             Transform::Matrix { rows } => TransformWords::Matrix { rows: Rows(rows.clone()) },
             Transform::Align { from, to, about } => {
                 TransformWords::Align { from: **from, to: **to, about: about.as_deref().copied() }

@@ -173,9 +173,10 @@ impl Parser<'_> {
         let mut fault = Diagnostic::error(codes::MIXED_FIELDS, found, message)
             .hint("write the name of each value, `name: value`")
             .label(self.span(first, first + 1), "this has no name");
-        // The two kinds whose first value may stand alone.
+        // The kinds whose first value may stand alone.
         let name = self.text[..opened - 1].trim_end();
-        let bare = [("Scale", "factor"), ("DropTo", "y")].into_iter().find(|(kind, _)| name.ends_with(kind));
+        let bare = [("Scale", "factor"), ("DropTo", "y"), ("CenterTo", "point")];
+        let bare = bare.into_iter().find(|(kind, _)| name.ends_with(kind));
         if let Some((_, field)) = bare {
             let replacement = format!("{field}: ");
             fault.hint = format!("write `{replacement}` before the first value");

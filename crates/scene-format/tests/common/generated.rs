@@ -67,7 +67,7 @@ fn material(random: &mut Random) -> Material {
 
 fn transform(random: &mut Random) -> Transform {
     let about = (random.below(2) == 0).then(|| Box::new(vector(random)));
-    match random.below(7) {
+    match random.below(8) {
         0 => Transform::Translate(vector(random)),
         1 => {
             let uniform = random.below(2) == 0;
@@ -93,6 +93,7 @@ fn transform(random: &mut Random) -> Transform {
             length: length(random),
             about,
         },
+        6 => Transform::CenterTo { point: vector(random) },
         _ => Transform::DropTo { y: number(random, -1e3, 1e3) },
     }
 }
@@ -145,7 +146,7 @@ pub(super) fn name(random: &mut Random) -> Name {
 fn grouped(random: &mut Random, objects: &mut [Spanned<Object>]) {
     let moves = |random: &mut Random| {
         let mut steps = transforms(random);
-        steps.retain(|step| !matches!(step.value, Transform::DropTo { .. } | Transform::FitTo { .. }));
+        steps.retain(|step| !step.value.asks_for_reach());
         steps.insert(0, Transform::Translate(vector(random)).into());
         steps
     };

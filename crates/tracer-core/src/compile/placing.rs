@@ -105,6 +105,13 @@ pub fn place(transforms: &[Spanned<Transform>], subject: &Subject<'_>, diagnosti
             Transform::DropTo { y } => {
                 Ok(DAffine3::from_translation(DVec3::new(0.0, y - (subject.reach)(&map, 1)[0], 0.0)))
             }
+            Transform::CenterTo { point } => {
+                let middle = [0, 1, 2].map(|axis| {
+                    let [low, high] = (subject.reach)(&map, axis);
+                    0.5 * (low + high)
+                });
+                Ok(DAffine3::from_translation(DVec3::from(*point) - DVec3::from(middle)))
+            }
             Transform::Matrix { rows } => Ok(of_rows(rows)),
             Transform::Align { from, to, about } => {
                 Ok(about_point(alignment(DVec3::from(**from), DVec3::from(**to)), here(about, &map)))
@@ -485,12 +492,46 @@ mod tests {
         assert!(faults(vec![turn, fit(Extent::Height), fit(Extent::Size)], &subject).is_empty());
     }
 
-    /// Copies are dropped and fitted where their own steps have put them.
+    /// By what it reaches where the steps before have put it, whatever its fixed point is.
     #[test]
-    fn copies_are_dropped_and_fitted_one_by_one() {
+    fn things_are_centred_by_their_bounds_in_the_world() {
+        // A wedge of four corners, far away: its middle is none of them, and not their mean.
+        let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]].map(DVec3::from);
+        let far = DVec3::new(3e5, -5e6, 4e4);
+        let reach = |map: &DAffine3, axis: usize| {
+            let along = corners.map(|corner| map.transform_point3(far + corner)[axis]);
+            along.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)])
+        };
+        let turn = Transform::Rotate { axis: [0.3, 1.0, -0.2], degrees: 50.0, about: None };
+        let centre = |point| Transform::CenterTo { point };
+        let fit = Transform::FitTo { extent: Extent::Size, length: 2.0, about: None };
+        let subject = Subject { noun: "mesh", local: DAffine3::IDENTITY, middle: Some(far), reach: &reach };
+        for (steps, point) in [
+            (vec![centre([1.0, 2.0, 3.0])], [1.0, 2.0, 3.0]),
+            (vec![turn.clone(), centre([1.0, 2.0, 3.0])], [1.0, 2.0, 3.0]),
+            (vec![turn.clone(), fit.clone(), centre([-1.0, 0.5, 0.0])], [-1.0, 0.5, 0.0]),
+            // What comes after moves it on, also from one middle to another.
+            (vec![centre([9.0; 3]), Transform::Translate([0.0, 1.0, 0.0])], [9.0, 10.0, 9.0]),
+            (vec![centre([9.0; 3]), centre([0.0; 3])], [0.0; 3]),
+        ] {
+            let steps: Vec<_> = steps.into_iter().map(Spanned::from).collect();
+            let mut found = Diagnostics::new();
+            let map = place(&steps, &subject, &mut found);
+            assert!(found.is_empty(), "{found:?}");
+            let middle = [0, 1, 2].map(|axis| reach(&map, axis)).map(|[low, high]| 0.5 * (low + high));
+            assert!((DVec3::from(middle) - DVec3::from(point)).length() < 1e-8, "{steps:?}: {middle:?}");
+            let before = place(&steps[..steps.len() - 1], &subject, &mut found);
+            assert_eq!(map.matrix3, before.matrix3);
+        }
+    }
+
+    /// Copies are dropped, fitted and centred where their own steps have put them.
+    #[test]
+    fn copies_are_dropped_fitted_and_centred_one_by_one() {
         let steps = [
             vec![Transform::Translate([0.0, 7.0, 0.0]), Transform::DropTo { y: 1.0 }],
             vec![Transform::FitTo { extent: Extent::Height, length: 8.0, about: None }],
+            vec![Transform::Translate([0.0, 7.0, 0.0]), Transform::CenterTo { point: [5.0, 3.0, 0.0] }],
         ];
         let list = steps.into_iter().map(|steps| steps.into_iter().map(Spanned::from).collect::<Vec<_>>());
         let placements = list.collect();
@@ -505,6 +546,7 @@ mod tests {
         );
         let maps =
             place_all(given(&desc.expect("a scene").scene), &own, &placements, &subject, &mut Diagnostics::new());
-        assert_eq!(maps.iter().map(|map| cube(map, 1)).collect::<Vec<_>>(), [[1.0, 5.0], [-4.0, 4.0]]);
+        assert_eq!(maps.iter().map(|map| cube(map, 1)).collect::<Vec<_>>(), [[1.0, 5.0], [-4.0, 4.0], [1.0, 5.0]]);
+        near(maps[2].translation, [5.0, 3.0, 0.0]);
     }
 }

@@ -219,6 +219,24 @@ mod tests {
     }
 
     #[test]
+    fn a_group_is_centred_by_all_that_stands_in_it() {
+        // From -1 to 4 along x and from -1 to 3 along y; a quarter turn about z takes x to y and y to -x.
+        let objects = "Group(transform: [Rotate(axis: (0, 0, 1), degrees: 90), CenterTo((7, 0, -2))], objects: [
+            Sphere(center: (0, 0, 0), radius: 1), Box(center: (3, 2, 5), size: 2)])";
+        same(&places(objects), &[[8.0, -1.5, -4.5], [6.0, 1.5, 0.5]]);
+        // Copies one by one, and a group within one that is centred itself.
+        let objects = "Group(placements: [[CenterTo((0, 0, 0))], [Scale(2), CenterTo((0, 9, 0))]], objects: [
+            Group(transform: [CenterTo((50, 0, 0))], objects: [Sphere(center: (1, 2, 3), radius: 1)]),
+            Sphere(center: (54, 0, 0), radius: 1)])";
+        same(&places(objects), &[[-2.0, 0.0, 0.0], [-4.0, 9.0, 0.0], [2.0, 0.0, 0.0], [4.0, 9.0, 0.0]]);
+        // A solid goes by the boxes of its shapes; what stands beside the group is not asked.
+        let objects = "Sphere(center: (3, 3, 3), radius: 1), Group(transform: [CenterTo((0, 0, 0))], objects: [
+            Union(objects: [Sphere(center: (0, 4, 0), radius: 1), Box(center: (10, 0, 0), size: 2)]),
+            Sphere(center: (2, 2, 0), radius: 1)])";
+        same(&places(objects), &[[3.0, 3.0, 3.0], [-3.0, 0.0, 0.0]]);
+    }
+
+    #[test]
     fn a_group_is_fitted_by_all_that_stands_in_it() {
         let objects = "Group(transform: [FitTo(width: 1)], objects: [
             Sphere(center: (-4, 0, 0), radius: 1), Sphere(center: (4, 2, 0), radius: 1)])";

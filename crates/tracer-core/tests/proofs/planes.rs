@@ -423,8 +423,11 @@ fn faults_of_planes() {
     assert_eq!(told(plane([0.0; 3], UP, glass(1.5), vec![])), ["W0310: glass of an open plane has no inside"]);
     let drop = Transform::DropTo { y: 1.0 };
     let fit = Transform::FitTo { extent: Extent::Width, length: 2.0, about: None };
+    let centre = Transform::CenterTo { point: [0.0; 3] };
     let matt = || diffuse([0.5; 3]);
     assert_eq!(told(plane([0.0; 3], UP, matt(), vec![drop.clone()])), ["E0211: a plane has no lowest point"]);
+    let centred = "E0211: a plane has no middle that could be centred";
+    assert_eq!(told(plane([0.0; 3], UP, matt(), vec![centre])), [centred]);
     let fitted = "E0211: a plane has no extent that could be fitted";
     assert_eq!(told(plane([0.0; 3], UP, matt(), vec![fit.clone()])), [fitted]);
     let mut copied = plane([0.0; 3], UP, matt(), vec![]);

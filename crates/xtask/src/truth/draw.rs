@@ -206,6 +206,10 @@ pub fn thing(world: &mut World, center: Point, radius: f64, mut material: Materi
         // Whatever is as high as wide and deep, turned or not, or nearly so.
         let extent = one_of(random, &[Extent::Height, Extent::Width, Extent::Depth]);
         steps.push(Transform::FitTo { extent, length: 0.8 * size, about: None });
+        // Away and back. Drawn aside, so that all else stays as it is without it.
+        if once_in(&mut random.clone(), 3) {
+            steps.extend([Transform::Translate([300.0, -500.0, 400.0]), Transform::CenterTo { point: center }]);
+        }
     }
     if form == 0 {
         let colors = super::textures::of_vertices(&mut material, shape.positions.len(), random);

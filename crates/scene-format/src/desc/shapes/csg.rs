@@ -70,7 +70,7 @@ scene_struct! {
         /// The material of those shapes in it that have none of their own.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without
-        /// `about` are about the origin. `DropTo` and `FitTo` go by the boxes of the shapes.
+        /// `about` are about the origin. `DropTo`, `CenterTo` and `FitTo` go by the boxes of the shapes.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
         /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
@@ -93,7 +93,8 @@ scene_struct! {
         /// The material of those shapes in it that have none of their own.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without
-        /// `about` are about the origin. `DropTo` and `FitTo` go by what the boxes of the shapes have in common.
+        /// `about` are about the origin. `DropTo`, `CenterTo` and `FitTo` go by what the boxes of the shapes have in
+        /// common.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
         /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
@@ -118,7 +119,7 @@ scene_struct! {
         /// The material of those shapes in it that have none of their own.
         material: MaterialRef = MaterialRef::Default;
         /// Transforms of all of it, applied first to last, after those of the shapes in it. Turns and scales without
-        /// `about` are about the origin. `DropTo` and `FitTo` go by the box of the first shape.
+        /// `about` are about the origin. `DropTo`, `CenterTo` and `FitTo` go by the box of the first shape.
         transform: Vec<Spanned<Transform>> = Vec::new();
         /// Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the
         /// name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.

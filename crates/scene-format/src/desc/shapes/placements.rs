@@ -73,7 +73,7 @@ impl Moved {
 }
 
 fn asks(steps: &[Spanned<Transform>]) -> Option<&Spanned<Transform>> {
-    steps.iter().find(|step| matches!(step.value, Transform::DropTo { .. } | Transform::FitTo { .. }))
+    steps.iter().find(|step| step.value.asks_for_reach())
 }
 
 impl Groups {

@@ -12,8 +12,8 @@ scene_struct! {
     /// A plane without an end, to the horizon: a floor, a wall, water. Seen against its normal, right is (0, 1, 0) x
     /// normal, or (1, 0, 0) where the normal is upright; texture coordinates grow to the right and upwards by 1 for
     /// each unit of the scene, from (0, 0) at `point`. It is open: it has no inside. What lies in it is seen where
-    /// it is as opaque, or shines. It cannot be dropped or fitted, as it has neither a lowest point nor
-    /// an extent.
+    /// it is as opaque, or shines. It cannot be dropped, centred or fitted, as it has neither a lowest
+    /// point nor a middle nor an extent.
     pub struct Plane as "Plane", "a plane" {
         /// A point of it.
         point: Spanned<Vec3> = [0.0; 3] => Rule::point();
@@ -67,6 +67,10 @@ fn endless_fault(step: &Spanned<Transform>) -> Option<Diagnostic> {
         Transform::DropTo { .. } => {
             ("a plane has no lowest point", "say where it is: `point`, or move it by Translate((0, y, 0))")
         }
+        Transform::CenterTo { .. } => (
+            "a plane has no middle that could be centred",
+            "say where it is: `point`, or move it by Translate((x, y, z))",
+        ),
         Transform::FitTo { .. } => {
             ("a plane has no extent that could be fitted", "to make its pattern larger, scale it: Scale(2)")
         }
