@@ -140,6 +140,8 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Align", &["orient", "aligned", "align_to", "alignto", "rotate_to", "rotateto", "point_at", "reorient"]),
         ("FitTo", &["fit", "resize", "normalize", "normalise", "unitize", "scale_to", "scaleto", "dimensions"]),
         ("DropTo", &["drop", "ground", "place_on", "rest_on", "onground", "on_ground"]),
+        ("CenterTo", &["center", "centre", "recenter", "recentre", "centered", "center_at", "move_to", "place_at"]),
+        ("CenterTo", &["geometry_to_origin", "origin_to_geometry", "origin_set", "center_object", "center_trans"]),
         ("Grid", &["array", "linear", "lattice", "rows"]),
         ("Ring", &["circle", "radial", "polar", "circular"]),
         ("Scatter", &["random", "poisson", "poissondisk"]),

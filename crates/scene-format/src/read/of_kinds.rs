@@ -241,6 +241,10 @@ pub(super) const TRANSFORMS: Hints = &[
          then of the first column",
     ),
     (
+        &["center", "centre", "recenter", "recentre", "centered", "geometrytoorigin", "origintogeometry"],
+        "the middle of its bounds comes to the origin by CenterTo((0, 0, 0))",
+    ),
+    (
         &["lookat", "look_at", "track", "trackto", "track_to"],
         "Align(from: (0, 0, 1), to: (1, 0, 0)) turns one direction to another; the camera alone has `look_at`",
     ),

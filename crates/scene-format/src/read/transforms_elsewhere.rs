@@ -12,6 +12,7 @@ use crate::diagnostic::{Diagnostic, Edit};
 use crate::schema::{FieldDef, StructDef};
 use crate::syntax::{Syntax, decode};
 use crate::tree::{Item, Kind};
+use std::borrow::Cow;
 
 /// Transforms as they are written here.
 const TRANSFORMS: [&str; 4] = ["Translate", "Rotate", "Scale", "Matrix"];
@@ -189,6 +190,23 @@ fn way_of_steps(steps: &[Meant], doubt: Option<Doubt>, syntax: Syntax, name: &st
     }
 }
 
+/// How a thing is brought to a place by its middle, for `center: true` of OpenSCAD, `recenter: true` and the like.
+pub(super) fn centred(name: &str, value: Item<'_, '_>, def: &'static StructDef) -> Option<Cow<'static, str>> {
+    let is_one = match name.to_ascii_lowercase().as_str() {
+        "center" | "centre" => value.kind() == Kind::Bool,
+        "centered" | "centred" | "recenter" | "recentre" | "center_mesh" | "center_geometry" | "auto_center" => true,
+        _ => false,
+    };
+    if !is_one || def.field("transform").is_none() {
+        return None;
+    }
+    let step = match value.syntax() {
+        Syntax::Ron => "transform: [CenterTo((0, 0, 0))]".into(),
+        syntax => syntax.of_toml("transform = [{ CenterTo = [0, 0, 0] }]"),
+    };
+    Some(format!("the middle of its bounds comes to a point by `{step}`").into())
+}
+
 /// One transform without its list, as it is written here within one: `[Translate((1, 0, 0))]`; `None` where it is
 /// written in our way.
 pub(super) fn lone_transform(item: Item<'_, '_>) -> Option<String> {
@@ -313,6 +331,16 @@ fn meant_transform(name: &str, body: Item<'_, '_>) -> Option<Meant> {
                 _ => fields_named(body, ["x", "y", "z"]).filter(|_| named),
             };
             three.map(scaling)
+        }
+        "centerto" | "center" | "centre" | "recenter" | "recentre" => {
+            let ours = name == "CenterTo";
+            let mut inside = body.children();
+            let only = inside.next().filter(|_| !ours && !named && inside.next().is_none()).and_then(numbers);
+            let three = match list.or(only).as_deref() {
+                Some(&[x, y, z]) if !ours || body.name().is_some() => Some([x, y, z]),
+                _ => fields_named(body, ["x", "y", "z"]).filter(|_| named),
+            };
+            three.map(centring)
         }
         "matrix" if !named => unnamed_rows(body).map(|rows| matrix(&rows)),
         _ => None,
@@ -497,6 +525,19 @@ fn translation(by: [&str; 3]) -> Meant {
         form_of_toml: "{ Translate = [x, y, z] }",
         ron: format!("({by})"),
         toml: format!("[{by}]"),
+        doubt: None,
+    }
+}
+
+fn centring(point: [&str; 3]) -> Meant {
+    let point = point.join(", ");
+    Meant {
+        kind: "CenterTo",
+        noun: "centring",
+        form: "CenterTo((x, y, z))",
+        form_of_toml: "{ CenterTo = [x, y, z] }",
+        ron: format!("({point})"),
+        toml: format!("[{point}]"),
         doubt: None,
     }
 }

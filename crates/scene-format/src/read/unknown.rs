@@ -4,6 +4,7 @@ use super::elsewhere::{self, Fields};
 use super::hints::{self, field_of_others, other_way, right_place};
 use super::pattern_fields::is_mapping;
 use super::synonyms::synonyms;
+use super::transforms_elsewhere;
 use super::value::expected_for;
 use super::{LOOK_AT, Reader, field_list, hinted, is_expression, names, pattern_fields, together, typed};
 use crate::codes;
@@ -172,6 +173,7 @@ impl Reader<'_> {
         let syntax = item.syntax();
         let way = hints::clear_background(name, value)
             .map(Into::into)
+            .or_else(|| transforms_elsewhere::centred(name, value, def))
             .or_else(|| other_way(name, def, syntax))
             .or_else(|| field_of_others(name, def, syntax).map(Into::into))
             .or_else(|| right_place(name, def, item).map(Into::into));
