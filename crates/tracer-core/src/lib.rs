@@ -50,7 +50,7 @@ pub use compile::{Asset, Assets, compile_from};
 pub use compile::{CompileError, Kept, check_files, check_files_from, compile, compile_keeping, named_files};
 pub use compile::{ContentHash, Fill, KeptError, KeptFile, KeptKind, Stamp, Store, Told as StoreTold};
 pub use compile::{LookedAt, Looking, ToldFrame, check_frames, compile_storing, is_kept_file};
-pub use compile::{most_light_groups, shining_objects};
+pub use compile::{most_light_groups, shining_objects, way_into_view};
 pub use denoise::{
     DENOISE_REACH, DenoiseError, DenoiseTold, Denoised, GUIDES, Noisy, denoise, denoise_while, lacks as denoise_lacks,
 };

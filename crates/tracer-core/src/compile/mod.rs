@@ -54,6 +54,7 @@ pub use frames::{LookedAt, Looking, ToldFrame, check_frames};
 pub use kept::Kept;
 pub use light_groups::{most_light_groups, shining_objects};
 use materials::{Finished, MaterialBuilder};
+pub use out_of_view::way_into_view;
 use placing::Given;
 use prepared::Prepared;
 use scene_format::diagnostic::{Source, keep_first, say_where_included};

@@ -1,9 +1,9 @@
 //! Scenes of which the picture shows nothing, known before it is made: all that they have lies beside the view.
 
 use glam::DVec3;
-use scene_format::desc::Background;
+use scene_format::desc::{Background, Object, Transform};
 use scene_format::{Diagnostic, SceneDesc, codes};
-use tracer_kernels::scene::{Camera, Filter, Projection, Scene, Sphere};
+use tracer_kernels::scene::{Camera, Filter, Frame, Projection, Scene, Sphere};
 
 /// Warns where all boxes of the scene lie beyond one of the planes that bound the view. Where something is in view in
 /// part, behind others, or between boxes, that is for the picture to tell.
@@ -49,10 +49,12 @@ pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
         let way = scene.camera.eye.distance(objects().next().map_or(DVec3::ZERO, |[low, high]| 0.5 * (low + high)));
         let message = format!("all that the scene has is seen in {width}x{height} pixels");
         let far = format!("the camera is {} away from it", rounded(way / scene.frame.scale));
+        let mend = mesh_brought(desc, &scene.camera, &scene.frame)
+            .map_or(String::new(), |steps| format!(" A mesh is brought there by {steps}"));
         return Some(
             Diagnostic::warning(codes::OTHER_SCALE, desc.camera.position.span, message)
                 .expected("a camera near enough to see it")
-                .hint(format!("{far}: move it nearer, or is one of the two in other units?")),
+                .hint(format!("{far}: move it nearer, or is one of the two in other units?{mend}")),
         );
     }
     let mut any = false;
@@ -61,14 +63,51 @@ pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
         let message = "nothing is in view: all that the scene has lies beside or behind the view";
         Diagnostic::warning(codes::NOTHING_IN_VIEW, desc.camera.look_at.span, message)
             .expected("objects between the camera and where it looks")
-            .hint("set `look_at` to the middle of an object; `tracer info --objects` tells where the objects are")
+            .hint(way_into_view(desc, scene))
     })
 }
 
-/// A number as people say it.
+/// What to do where nothing is in view.
+pub fn way_into_view(desc: &SceneDesc, scene: &Scene) -> String {
+    let mesh = mesh_brought(desc, &scene.camera, &scene.frame)
+        .map_or(String::new(), |steps| format!(", or bring a mesh there by {steps}"));
+    format!("set `look_at` to the middle of an object{mesh}; `tracer info --objects` tells where the objects are")
+}
+
+/// The steps that bring a mesh to where the camera looks, half as large as what is seen there; `None`: the scene has no
+/// mesh of a file, or all have been brought somewhere. They lie where their programs had them, in units of these, and
+/// nobody sees a file's.
+pub(super) fn mesh_brought(desc: &SceneDesc, camera: &Camera, frame: &Frame) -> Option<String> {
+    let is_where_it_was = |object: &Object| match object {
+        Object::Mesh(mesh) => {
+            let is_centred = mesh.transform.iter().any(|step| matches!(step.value, Transform::CenterTo { .. }));
+            mesh.file().is_some() && !is_centred
+        }
+        _ => false,
+    };
+    let any = desc.objects.iter().any(|object| is_where_it_was(&object.value));
+    any.then(|| {
+        let ([x, y, z], size) = (desc.camera.look_at.value, rounded(half_of_view(desc, camera, frame)));
+        format!("`transform: [FitTo(size: {size}), CenterTo(({x}, {y}, {z}))]`")
+    })
+}
+
+/// Half the height of what the camera sees at the point that it looks at, in the scene's unit; where it sees all around
+/// half the way there.
+fn half_of_view(desc: &SceneDesc, camera: &Camera, frame: &Frame) -> f64 {
+    let away = camera.eye.distance(frame.point(DVec3::from(desc.camera.look_at.value)));
+    let half = match camera.projection {
+        Projection::Perspective { .. } => away * camera.up.length(),
+        Projection::Orthographic => camera.up.length(),
+        Projection::Panorama | Projection::Fisheye { .. } => 0.5 * away,
+    };
+    half / frame.scale
+}
+
+/// A number as people say it: of two digits.
 fn rounded(x: f64) -> String {
-    let step = libm::exp10(libm::floor(libm::log10(x.max(1e-300))) - 1.0);
-    format!("{}", (x / step).round() * step)
+    let digits = format!("{x:.1e}");
+    digits.parse().map_or(digits, |x: f64| x.to_string())
 }
 
 /// How many columns and rows of pixels the boxes take, where these are a few of many; `None`: they are more, or reach

@@ -4,6 +4,7 @@
 use super::bodies::{is_closed, open_edges};
 use super::curved::Curved;
 use super::meshes::Loaded;
+use super::out_of_view::mesh_brought;
 use super::placed::Placed;
 use super::polygonal::{Geometry, UnitShape, polygonal};
 use glam::{DAffine3, DVec3};
@@ -98,6 +99,7 @@ pub fn far_view(desc: &SceneDesc, camera: &Camera, frame: &Frame, diagnostics: &
     let step = camera.eye.abs().max_element().max(target.abs().max_element()) * f64::from(f32::EPSILON) / 2.0;
     if pixel < step {
         let steps = step / pixel;
+        let mesh = mesh_brought(desc, camera, frame).map_or(String::new(), |steps| format!(", a mesh by {steps}"));
         diagnostics.push(
             Diagnostic::warning(
                 codes::FAR_VIEW,
@@ -105,7 +107,7 @@ pub fn far_view(desc: &SceneDesc, camera: &Camera, frame: &Frame, diagnostics: &
                 format!("the view is so far and so narrow that single precision shows: in steps of {steps:.0} pixels"),
             )
             .expected("a camera nearer to what it looks at")
-            .hint("bring the camera nearer, with a wider `fov`, or the objects nearer to the camera"),
+            .hint(format!("bring the camera nearer, with a wider `fov`, or the objects nearer to the camera{mesh}")),
         );
     }
 }

@@ -330,6 +330,19 @@ fn empty_pictures_are_told() {
         sandbox.run(&["check", "odd.ron"]).ends(0).err.contains("W0309")
     };
     let ball = |center: &str| format!("Sphere(center: {center}, radius: 1)");
+    // A mesh may be brought to where the camera looks; one that has been brought somewhere is meant to be there.
+    sandbox.write("box.obj", cube(true));
+    let of_mesh = |steps: &str| {
+        check("position: (0, 0, 8), look_at: (0, 0.5, 0)", &format!("Mesh(file: \"box.obj\", transform: [{steps}])"));
+        sandbox.run(&["check", "odd.ron"]).ends(0).err
+    };
+    let steps = "FitTo(size: 2.9), CenterTo((0, 0.5, 0))";
+    let told = of_mesh("Translate((5e5, 0, 0))");
+    assert!(told.contains(&format!("or bring a mesh there by `transform: [{steps}]`")), "{told}");
+    assert!(told.contains(&format!("or the objects nearer to the camera, a mesh by `transform: [{steps}]`")), "{told}");
+    let told = of_mesh("CenterTo((5e5, 0, 0))");
+    assert!(told.contains("W0309") && !told.contains("bring a mesh"), "{told}");
+    assert_eq!(of_mesh(&format!("Translate((5e5, 0, 0)), {steps}")), "");
     for projection in ["fov: 40", "projection: Orthographic(height: 3)"] {
         let camera = format!("position: (0, 0, 8), look_at: (0, 0, 0), {projection}");
         for away in ["(0, 0, 10)", "(60, 0, 0)", "(0, -60, 0)", "(0, 60, -1)"] {

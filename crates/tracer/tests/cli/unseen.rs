@@ -129,6 +129,12 @@ fn a_scene_that_is_a_speck_is_told() {
         assert!(told.contains("the camera is 500 away from it"), "{told}");
         assert_eq!(at(5.0, objects), "");
     }
+    // A mesh is brought to half of the view's height, where the camera looks; then nothing is said of it.
+    sandbox.write("box.off", "OFF\n4 2 0\n8 0 0\n9 0 0\n9 1 0\n8 1 1\n3 0 1 2\n3 0 2 3\n");
+    let told = at(500.0, "Mesh(file: \"box.off\")");
+    let steps = "transform: [FitTo(size: 180), CenterTo((0, 0, 0))]";
+    assert!(told.contains(&format!("A mesh is brought there by `{steps}`")), "{told}");
+    assert_eq!(at(500.0, &format!("Mesh(file: \"box.off\", {steps})")), "");
     for seen in ["Box(size: 1), Plane(point: (0, -1, 0))", "Box(size: 1), Box(center: (30, 0, 0), size: 1)"] {
         assert_eq!(at(500.0, seen), "", "{seen}");
     }

@@ -37,7 +37,7 @@ fn of_picture(film: &Film, desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic
     if film.crop() != Crop::whole(film.size()) {
         return None;
     }
-    empty(film, desc).or_else(|| dark(film, desc)).or_else(|| white(film, desc)).or_else(|| clipped(film, desc))
+    empty(film, desc, scene).or_else(|| dark(film, desc)).or_else(|| white(film, desc)).or_else(|| clipped(film, desc))
 }
 
 /// What is hard to tell from black on a screen: 10 of 255, by the slope of sRGB next to black (IEC 61966-2-1).
@@ -194,7 +194,7 @@ fn exposure(present: f64, factor: f64) -> f64 {
     0.0 + if factor > 1.0 { exact.ceil() } else { exact.floor() }
 }
 
-fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
+fn empty(film: &Film, desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
     let [width, height] = film.size();
     let first = film.radiance(0, 0);
     let same = (0..height).all(|y| (0..width).all(|x| film.radiance(x, y) == first));
@@ -237,7 +237,7 @@ fn empty(film: &Film, desc: &SceneDesc) -> Option<Diagnostic> {
     (shown == [true; 3] && background != [0.0; 3]).then(|| {
         Diagnostic::warning(codes::NOTHING_IN_VIEW, span, "nothing is in view: the picture is the background alone")
             .expected("objects between the camera and where it looks")
-            .hint("set `look_at` to the middle of an object; `tracer info --objects` tells where the objects are")
+            .hint(tracer_core::way_into_view(desc, scene))
     })
 }
 
