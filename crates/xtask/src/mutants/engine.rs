@@ -566,9 +566,16 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "pixels-share-their-points",
         file: SAMPLER,
-        find: "parts[k].0 ^ y[k].reverse_bits()",
+        find: "parts[k].0 ^ x[k].reverse_bits()",
         replace: "parts[k].0",
         caught_by: kernel_units(&["sampling::sampler"]),
+    },
+    Mutant {
+        name: "groups-of-pixels-are-clumped",
+        file: SAMPLER,
+        find: "pascal_upper(second_of_pixel(y[k]))",
+        replace: "pascal_upper(y[k])",
+        caught_by: kernel_units(&["sampling::sampler::tests::groups_of_pixels_are_spread_in_two_dimensions"]),
     },
     Mutant {
         name: "numbers-reach-one",
