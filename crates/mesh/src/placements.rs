@@ -52,6 +52,8 @@ pub enum PlacementsError {
         message: String,
         /// What was expected.
         expected: String,
+        /// What to do; nothing where that is not known.
+        hint: &'static str,
         /// The line, with what is meant of it, where it can be shown.
         excerpt: Option<Box<Excerpt>>,
     },
@@ -68,9 +70,10 @@ impl PlacementsError {
     pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
         match self {
             PlacementsError::File(error) => error.to_diagnostic(span),
-            PlacementsError::Broken { path, line, message, expected, excerpt } => {
+            PlacementsError::Broken { path, line, message, expected, hint, excerpt } => {
                 Diagnostic::error(codes::BROKEN_PLACEMENTS, span, format!("the placements file is broken: {message}"))
                     .expected(expected.clone())
+                    .hint(*hint)
                     .at_line(path, *line)
                     .showing(excerpt.as_deref().cloned())
             }
@@ -127,13 +130,32 @@ pub fn parse_placements(text: &[u8], path: &Path) -> Result<Vec<DAffine3>, Place
         .collect();
     if let Some(fault) = faults.into_iter().flatten().next() {
         let (line, excerpt) = (fault.line_in(text), Excerpt::around(text, fault.at).map(Box::new));
+        let hint = hint(&fault, text);
         let Fault { message, expected, .. } = *fault;
-        return Err(PlacementsError::Broken { path: path.to_owned(), line, message, expected, excerpt });
+        return Err(PlacementsError::Broken { path: path.to_owned(), line, message, expected, hint, excerpt });
     }
     if placements.is_empty() {
         return Err(PlacementsError::Empty { path: path.to_owned() });
     }
     Ok(placements)
+}
+
+/// What to do about a line of a table that other programs write.
+fn hint(fault: &Fault, text: &[u8]) -> &'static str {
+    let before = text.get(..fault.at).unwrap_or_default();
+    let line = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |line_break| line_break + 1);
+    let (above, begin) = before.split_at(line);
+    let first = || count_lines(above) == 0 && begin.iter().all(|byte| b" \t\xef\xbb\xbf".contains(byte));
+    if fault.message.ends_with("is not a number") && first() {
+        return "names of columns stand in a comment: begin that line with `#`, or leave it out";
+    }
+    match &*fault.message {
+        "a placement with 5 numbers" | "a placement with 6 numbers" | "a placement with 7 numbers" => {
+            "of a table with more columns keep x, y, z and a factor of the size; colours by a column are a Repeat over \
+             lists in `vars`, each item with its own material"
+        }
+        _ => "",
+    }
 }
 
 fn pieces_at_line_breaks(text: &[u8]) -> Vec<std::ops::Range<usize>> {
@@ -287,6 +309,21 @@ mod tests {
         ] {
             assert_eq!(parse(text).expect_err(text).to_string(), expected);
         }
+    }
+
+    #[test]
+    fn tables_of_other_programs_are_told_what_to_do() {
+        let hint = |text: &str| match parse(text).expect_err(text) {
+            PlacementsError::Broken { hint, .. } => hint,
+            other => panic!("{other}"),
+        };
+        for header in ["x,y,z\n1,2,3\n", "# made by p\n\n \"x\" \"y\"\n", "\u{feff}x y z\n"] {
+            assert!(hint(header).contains("begin that line with `#`"), "{header}");
+        }
+        assert_eq!(hint("1 2 3\nx y z\n"), "");
+        assert_eq!(hint("1 2 x\n"), "");
+        assert!(hint("1,2,3,0.5,7\n").contains("keep x, y, z"));
+        assert_eq!(hint("1 2\n"), "");
     }
 
     /// Over several pieces: the order is that of the lines, and of two faults the first is told.
