@@ -134,14 +134,21 @@ impl TextureError {
     pub fn to_diagnostic(&self, span: Span) -> Diagnostic {
         match self {
             TextureError::File(error) => error.to_diagnostic(span),
-            TextureError::Format { found, formats, .. } => {
+            TextureError::Format { path, found, formats, .. } => {
                 let what = match found.and_then(|format| format.extensions_str().first()) {
                     Some(name) => format!("{self}, but looks like `{name}`"),
                     None => self.to_string(),
                 };
+                // Steps of PNG are too coarse for what has floating-point numbers.
+                let hint = match path.extension().and_then(|end| end.to_str()) {
+                    Some("npy" | "npz" | "pfm" | "tif" | "tiff" | "mat" | "h5" | "csv" | "txt" | "dat" | "asc") => {
+                        "convert it to EXR, which keeps its numbers as they are"
+                    }
+                    _ => "convert the picture to PNG",
+                };
                 Diagnostic::error(codes::BROKEN_TEXTURE, span, what)
                     .expected(format!("a {} file", names(formats)))
-                    .hint("convert the picture to PNG")
+                    .hint(hint)
             }
             TextureError::Broken { .. } | TextureError::Incomplete { .. } => {
                 let message = match self {
