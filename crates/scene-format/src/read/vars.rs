@@ -1,6 +1,6 @@
 //! Values by name, and the expressions that use them.
 
-use super::radians::in_radians;
+use super::radians::{holds_radians, in_radians};
 use super::seeds::as_range;
 use super::{Reader, Step, hinted, shortened};
 use crate::codes;
@@ -31,6 +31,8 @@ pub(super) struct Var {
     slot: u32,
     state: State,
     pub(super) used: bool,
+    /// Whether it is in radians, as far as its expression tells.
+    radians: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -57,6 +59,8 @@ pub(super) struct Table {
     open: usize,
     /// Where one takes radians for degrees, which was told.
     told_of_radians: BTreeSet<Span>,
+    /// Some are in radians, perhaps.
+    any_radians: bool,
     /// Seeds that look like a range have been told.
     told_of_seeds: bool,
     /// That they were too many was told.
@@ -95,7 +99,7 @@ impl Table {
     pub fn enter(&mut self, index: &Arc<str>, count: f64) {
         self.frames.push(self.list.len());
         let state = State::Done(Value::Number(count));
-        self.list.push(Var { name: Arc::clone(index), span: Span::NONE, slot: 0, state, used: true });
+        self.list.push(Var { name: Arc::clone(index), span: Span::NONE, slot: 0, state, used: true, radians: false });
     }
 
     /// Ends it.
@@ -224,7 +228,7 @@ impl Reader<'_> {
                 given.1 = true;
                 State::Done(given.0.clone())
             });
-            self.vars.list.push(Var { name, span: key.span(), slot, state, used: false });
+            self.vars.list.push(Var { name, span: key.span(), slot, state, used: false, radians: false });
         }
         // Those of a scene are reckoned when all files that it includes have told theirs.
         if !self.vars.frames.is_empty() || self.open.is_empty() && !self.is_included(item.span()) {
@@ -272,6 +276,7 @@ impl Reader<'_> {
             // A circle has been told where it closes.
             if let State::Open = self.vars.list[k].state {
                 self.vars.list[k].state = value.map_or(State::Failed, State::Done);
+                self.mark_radians(k, near);
             }
         }
         self.vars.list[k].state.clone()
@@ -417,16 +422,37 @@ impl Reader<'_> {
         Some(None)
     }
 
-    /// Warns of `pi` in what counts in degrees, once at each place: what is repeated is doubtful each time.
+    /// Keeps in mind whether a var is in radians, once it is reckoned: so are those then that it is made of.
+    fn mark_radians(&mut self, k: usize, near: Item<'_, '_>) {
+        let item = near.other(self.vars.list[k].slot).filter(|item| is_expression(*item));
+        let Some(text) = item.map(|item| item.text()) else { return };
+        if (self.vars.any_radians || text.contains("pi")) && holds_radians(&text[1..], &|name| self.is_radians(name)) {
+            (self.vars.list[k].radians, self.vars.any_radians) = (true, true);
+        }
+    }
+
+    fn is_radians(&self, name: &str) -> bool {
+        self.vars.find(name).is_some_and(|k| self.vars.list[k].radians)
+    }
+
+    /// Warns of radians in what counts in degrees, once at each place: what is repeated is doubtful each time.
     fn warn_of_radians(&mut self, item: Item<'_, '_>, text: &str) {
-        let Some((at, degrees)) = in_radians(&text[1..]) else { return };
+        // Hardly any has one, and there may be millions.
+        if !self.vars.any_radians && !text.contains("pi") {
+            return;
+        }
+        let Some(found) = in_radians(&text[1..], &|name| self.is_radians(name)) else { return };
         if !self.vars.told_of_radians.insert(item.span()) {
             return;
         }
-        let message = format!("`{}` has an angle in radians", shortened(&text[1..][at.clone()]));
-        let warning = Diagnostic::warning(codes::OTHER_SCALE, within(item, text, &at), message);
-        let hint = format!("write `{}`: a half turn is 180", hinted(&degrees));
-        self.report(warning.expected("an angle in degrees").hint(hint));
+        let message = format!("`{}` has an angle in radians", shortened(&text[1..][found.at.clone()]));
+        let warning = Diagnostic::warning(codes::OTHER_SCALE, within(item, text, &found.at), message);
+        let hint = format!("write `{}`: a half turn is 180", hinted(&found.degrees));
+        let mut warning = warning.expected("an angle in degrees").hint(hint);
+        if let Some(k) = found.by.and_then(|name| self.vars.find(&name)) {
+            warning = warning.label(self.vars.list[k].span, "this is in radians, by `pi`");
+        }
+        self.report(warning);
     }
 
     /// Warns of seeds that look like a range, once in a scene.
