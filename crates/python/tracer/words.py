@@ -1426,7 +1426,7 @@ class Mesh(TypedDict, total=False):
     part: With `file`: only this part of it, as if the file held nothing else. In OBJ the faces of objects (`o`) and groups (`g`) of this name, in glTF nodes, with all that is below them, and meshes of this name; all of them where several have it. It stays where the file has it. Other formats have no parts.
     points: Instead of a file: the points of the mesh, three or more. Unit: the scene's unit.
     faces: With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen from outside. Faces of more than three corners are cut into triangles, also where they are not convex.
-    colors: With `points`: a colour for each of them, which a `VertexColor` of the material shows.
+    colors: With `points`: a colour for each of them, which a `VertexColor` of the material shows. Numbers are linear, or sRGB, as matplotlib gives them, with `VertexColor(color_space: Srgb)`.
     material: Its material, by name or written here; without one those of the file (the MTL of OBJ, glTF's own), else `Diffuse(albedo: 0.8)`.
     transform: Transforms, applied first to last.
     placements: Copies: each placement is applied after `transform`. Empty: one, where `transform` puts it. A text is the name of a placements file, one placement a line; `Grid`, `Ring` and `Scatter` make copies by a rule.
