@@ -75,6 +75,14 @@ impl Reader<'_> {
 
     /// Reports what stands in place of a struct and can have no fields.
     pub(super) fn not_a_struct<T>(&mut self, item: Item<'_, '_>, def: &'static StructDef) -> Option<T> {
+        let end = item.span().end as usize;
+        // `include: ..` before the scene is told of by itself.
+        let is_field = || item.text_between(end, end + 1).is_none_or(|next| next == ":" || next == "=");
+        if def.name == Scene::DEF.name
+            && (matches!(item.kind(), Kind::Integer | Kind::Float) || item.kind() == Kind::Word && !is_field())
+        {
+            return self.no_scene(item);
+        }
         let header = item.kind() == Kind::List && item.lexeme().starts_with("[[");
         let header_edit = || header.then(|| item.lexeme().replace("[[", "[").replace("]]", "]"));
         // Nothing, for a thing that needs no field.
@@ -89,6 +97,21 @@ impl Reader<'_> {
             }
         };
         self.wrong_kind(item, def.noun, &expected, edit)
+    }
+}
+
+impl Reader<'_> {
+    /// A file that begins with a number or a word, as tables and meshes do: what follows is none of a scene either.
+    fn no_scene<T>(&mut self, item: Item<'_, '_>) -> Option<T> {
+        let before = self.sink.diagnostics.len();
+        self.sink.diagnostics.retain(|fault| fault.code != codes::TEXT_AFTER_END);
+        self.sink.errors -= before - self.sink.diagnostics.len();
+        let message = format!("this is no scene: it begins with {}", super::describe(item));
+        self.report(Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected("Scene(objects: [..])").hint(
+            "a scene is RON, TOML or JSON, and names other files: Mesh(file: \"cat.obj\"), Sphere(radius: 0.1, \
+                 placements: \"points.csv\")",
+        ));
+        None
     }
 }
 
