@@ -105,8 +105,9 @@ pub fn explain_word(word: &str) -> Option<String> {
     if let Some(told) = word.split_once('.').and_then(|(of, field)| of_one(of, field, &pieces)) {
         return Some(told);
     }
-    // `camera.fov`, as `--set` has it.
-    forms.extend(word.rsplit_once('.').map(|(_, field)| field.to_owned()));
+    // `camera.fov`, as `--set` has it. Of several words each is asked for by itself.
+    let dotted = word.rsplit_once('.').filter(|_| !word.contains(' '));
+    forms.extend(dotted.map(|(_, field)| field.to_owned()));
     forms.iter().find_map(|form| explained(form, &pieces))
 }
 

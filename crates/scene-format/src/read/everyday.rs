@@ -31,6 +31,41 @@ const WORDS: &[(&[&str], &str)] = &[
          \"=len(data)\", items: [Box(center: (\"=i\", \"=data[i]/2\", 0), size: (0.8, \"=data[i]\", 0.8))])",
     ),
     (
+        &["contour", "contour line", "isoline", "isolines", "level line", "level curve", "contour plot", "topographic"],
+        "contour lines are Lines seen from the side, here every 0.1 of height: material: Diffuse(albedo: Lines(along: \
+         U, width: 0.1, a: 0.05, b: 0.7, mapping: Planar(normal: (0, 0, 1), size: (1, 0.1))))",
+    ),
+    (
+        &["viridis", "plasma", "magma", "inferno", "colormap", "cmap", "color map", "colour map", "colourmap"],
+        "colours by a number are a ramp: ColorRamp(input: Gradient(), stops: [(at: 0, color: \"#440154\"), (at: 0.25, \
+         color: \"#3b528b\"), (at: 0.5, color: \"#21918c\"), (at: 0.75, color: \"#5ec962\"), (at: 1, color: \
+         \"#fde725\")]) is viridis along v, from 0 to 1; at points of a Mesh they are its `colors`",
+    ),
+    (
+        &["colorbar", "color bar", "colour bar", "legend"],
+        "a bar of colours is a Rectangle with the ramp: Rectangle(size: (0.2, 2), material: Diffuse(albedo: \
+         ColorRamp(input: Gradient(), stops: [(at: 0, color: \"#440154\"), (at: 1, color: \"#fde725\")]))); its \
+         numbers are written by another program, where `output: Output(marks: {..})` tells",
+    ),
+    (
+        &["axes", "coordinate axes", "coordinate system", "gizmo", "triad", "axes3d"],
+        "axes are Arrows: Arrow(to: (1, 0, 0), radius: 0.02, material: Diffuse(albedo: \"#d03a2b\")), Arrow(to: (0, 1, \
+         0), radius: 0.02, material: Diffuse(albedo: \"#3aa655\")), Arrow(to: (0, 0, 1), radius: 0.02, material: \
+         Diffuse(albedo: \"#2b5fd0\"))",
+    ),
+    (
+        &["atom", "molecule", "bond", "ball and stick", "ball-and-stick", "protein", "chemistry", "unit cell"],
+        "atoms are Spheres, bonds Cylinders; from lists in `vars` a Repeat makes them: vars: { \"atoms\": [(0, 0, 0), \
+         (1, 0, 0), (1.5, 0.8, 0)], \"bonds\": [(0, 1), (1, 2)] } and Repeat(count: \"=len(atoms)\", items: \
+         [Sphere(center: \"=atoms[i]\", radius: 0.3)]), Repeat(count: \"=len(bonds)\", items: [Cylinder(from: \
+         \"=atoms[bonds[i].x]\", to: \"=atoms[bonds[i].y]\", radius: 0.1)])",
+    ),
+    (
+        &["streamline", "field line", "trajectory", "flow line"],
+        "a line in space is a Tube through its points: Tube(points: [(0, 0, 0), (1, 0.5, 0), (2, 0, 0)], radius: 0.02, \
+         curve: CatmullRom)",
+    ),
+    (
         &["fire", "flame", "candle", "explosion", "smoke", "clouds", "cloud", "dust"],
         "only surfaces are seen: a flame is a small shape that shines, Emissive(radiance: 20, color: \
          \"=blackbody(1900)\")",
