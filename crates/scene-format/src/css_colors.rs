@@ -34,6 +34,17 @@ pub(crate) fn named_color(name: &str) -> Option<String> {
     std::iter::from_fn(|| Some((words.next()?, words.next()?)))
         .find(|(known, _)| name.eq_ignore_ascii_case(known))
         .map(|(_, digits)| format!("#{digits}"))
+        .or_else(|| grey_of_x11(name))
+}
+
+/// `gray30`, as X11 and what was made for it name so many percent of white.
+fn grey_of_x11(name: &str) -> Option<String> {
+    let (word, percent) = name.split_at_checked(4).filter(|(_, percent)| percent.len() <= 3)?;
+    let is_grey = word.eq_ignore_ascii_case("gray") || word.eq_ignore_ascii_case("grey");
+    let digits = !percent.is_empty() && percent.bytes().all(|byte| byte.is_ascii_digit());
+    let percent: u32 = percent.parse().ok().filter(|percent| is_grey && digits && *percent <= 100)?;
+    let byte = (f64::from(percent) * 2.55).round() as u8;
+    Some(format!("#{byte:02x}{byte:02x}{byte:02x}"))
 }
 
 /// The hexadecimal value of `rgb(255, 0, 0)`, `hsl(200, 50%, 50%)`, `hsv(..)` and the like that a text begins with, and
@@ -98,6 +109,11 @@ mod tests {
             assert_eq!(named_color(name).as_deref(), Some(hex));
         }
         assert_eq!(named_color("f0f8ff"), None);
+        for (name, hex) in [("gray0", "#000000"), ("gray30", "#4d4d4d"), ("Grey50", "#7f7f7f"), ("gray100", "#ffffff")]
+        {
+            assert_eq!(named_color(name).as_deref(), Some(hex));
+        }
+        assert_eq!(["gray101", "gray+1", "gray-1", "greyish", "gra1"].map(named_color), [const { None }; 5]);
         assert_eq!(NAMES.split(' ').count(), 2 * 148);
         for (written, hex) in [
             ("hsl(120, 100%, 50%)", "#00ff00"),

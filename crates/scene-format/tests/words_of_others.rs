@@ -43,7 +43,7 @@ fn kinds_of_objects() {
         ("Cone(from: (0, 0, 0), to: (0, 1, 0), from_radius: 1, tip_radius: 0.5)", "`radius`"),
         ("Lens(r1: 0.5, r2: 0.5)", "Intersection(objects: [Sphere("),
         ("ParaboloidMirror(focal_length: 1)", "`Lathe`"),
-        ("Function(z: 1)", "`HeightField`"),
+        ("Function(z: 1)", "HeightField(file"),
         ("Metaball(balls: [])", "`Mesh`"),
         ("Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 1, open: true)", "`caps: false`"),
         ("Box(size: \"50 cm\")", "scene's own unit"),

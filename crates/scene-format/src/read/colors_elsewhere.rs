@@ -1,8 +1,8 @@
 //! Colours and points in the ways of other programs that are one fault with one way: bytes, alpha, texts of numbers.
 
-use super::elsewhere::{Fields, VECTORS, numbers, vector_elsewhere};
+use super::elsewhere::{Fields, VECTORS, numbers, vector, vector_elsewhere};
 use super::value::{before_unit, expected_for, hex_color, is_picture};
-use super::{Reader, hinted, plain, shortened};
+use super::{Reader, hinted, is_expression, plain, shortened};
 use crate::codes;
 use crate::css_colors::{self, named_color};
 use crate::desc::{Metal, is_texture};
@@ -70,6 +70,36 @@ impl Reader<'_> {
             _ => None,
         }
     }
+}
+
+/// A colour that stands alone, as one is written here: what needs nothing of the scene to be known.
+pub(super) fn color_alone(value: Item<'_, '_>) -> Option<String> {
+    let share = |number: &&str| (0.0..=1.0).contains(&decode::number(number));
+    match value.kind() {
+        Kind::Text if is_expression(value) => Some(value.lexeme().to_owned()),
+        Kind::Text | Kind::Word | Kind::Char => {
+            let text = value.text();
+            let hex = hex_color(&text).map(|_| text.trim().to_owned()).or_else(|| named_color(&text));
+            hex.or_else(|| css_colors::function(text.trim()).map(|(hex, _)| hex)).map(|hex| format!("\"{hex}\""))
+        }
+        Kind::Integer | Kind::Float => Some(value.lexeme()).filter(share).map(str::to_owned),
+        Kind::Tuple | Kind::List => {
+            let channels = numbers(value).filter(|channels| channels.len() == 3)?;
+            match value.name().map(str::to_ascii_lowercase) {
+                _ if !channels.iter().all(share) => bytes(&channels),
+                None => Some(value.lexeme().to_owned()),
+                Some(name) => VECTORS.contains(&&*name).then(|| vector(value, &channels)),
+            }
+        }
+        _ => None,
+    }
+}
+
+/// Channels that can be nothing but bytes, as a colour.
+fn bytes(channels: &[&str]) -> Option<String> {
+    let whole: Vec<u8> = channels.iter().map(|channel| channel.parse().ok()).collect::<Option<_>>()?;
+    let digits: String = whole.iter().map(|byte| format!("{byte:02x}")).collect();
+    whole.iter().any(|byte| f64::from(*byte) > LITTLE).then(|| format!("\"#{digits}\""))
 }
 
 /// What to write for a metal that stands where a colour does: some metals are names of colours, too, which nobody means
@@ -141,9 +171,14 @@ pub(super) fn diffuse(color: &str, syntax: Syntax) -> String {
 
 /// Whether the scene has a material of this name. Values are read before materials are.
 fn is_name_of_material(item: Item<'_, '_>, name: &str) -> bool {
+    is_named_in("materials", item, name)
+}
+
+/// Whether a map of the scene itself has this name.
+pub(super) fn is_named_in(map: &str, item: Item<'_, '_>, name: &str) -> bool {
     let scene = item.other(0);
-    let materials = scene.and_then(|scene| scene.fields().find(|(key, _)| key.text() == "materials"));
-    materials.is_some_and(|(_, materials)| materials.fields().any(|(key, _)| key.text() == name))
+    let map = scene.and_then(|scene| scene.fields().find(|(key, _)| key.text() == map));
+    map.is_some_and(|(_, map)| map.fields().any(|(key, _)| key.text() == name))
 }
 
 impl Reader<'_> {

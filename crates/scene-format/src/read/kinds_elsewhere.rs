@@ -1,7 +1,9 @@
 //! Kinds of other programs as the nearest kind here, with what is said of them there.
 
+use super::colors_elsewhere::{color_alone, is_named_in};
 use super::elsewhere::{Fields, numbers, vector};
 use super::pattern_fields::of_mapping;
+use super::shape_fields::is_ring;
 use super::synonyms::{squeezed, synonyms};
 use super::vector::in_groups;
 use crate::schema::{Content, EnumDef, FieldDef, StructDef, VariantDef};
@@ -92,6 +94,17 @@ fn with_values(kind: &str, def: &'static StructDef, inner: Item<'_, '_>) -> (Vec
 
 /// A value that other programs write in another way.
 fn as_ours(value: Item<'_, '_>, at: &FieldDef) -> Option<String> {
+    if at.name == "outline" && is_ring(value) {
+        return Some(format!("[{}]", value.lexeme()));
+    }
+    // What stands for a texture or a var of the scene is no colour.
+    let named = || ["textures", "vars"].iter().any(|map| is_named_in(map, value, &value.text()));
+    if at.rule.color
+        && !named()
+        && let Some(color) = color_alone(value)
+    {
+        return Some(color);
+    }
     let hexadecimal = value.lexeme().strip_prefix("0x").filter(|digits| at.rule.color && digits.len() == 6);
     hexadecimal.map(|digits| format!("\"#{digits}\"")).or_else(|| in_groups(value, at))
 }
@@ -135,7 +148,7 @@ pub(super) fn of_all_purposes(
     inner: Option<Item<'_, '_>>,
     syntax: Syntax,
 ) -> Option<String> {
-    const NAMES: [&str; 16] = [
+    const NAMES: [&str; 20] = [
         "principled",
         "disney",
         "pbr",
@@ -152,6 +165,10 @@ pub(super) fn of_all_purposes(
         "openpbrsurface",
         "carpaint",
         "metallicpaint",
+        "material",
+        "gltf",
+        "gltfmaterial",
+        "pbrmetallicroughness",
     ];
     let plain = squeezed(name);
     let inner = inner.filter(|inner| inner.fields().next().is_some())?;
@@ -162,7 +179,10 @@ pub(super) fn of_all_purposes(
         let found = inner.fields().take(MOST).find(|(key, _)| names.contains(&&*squeezed(&key.text())));
         found.and_then(|(_, value)| value.number()).unwrap_or(0.0)
     };
+    let glossy = ["metallic", "roughness", "specular", "clearcoat", "metalness"];
+    let is_glossy = || inner.fields().take(MOST).any(|(key, _)| glossy.contains(&&*squeezed(&key.text())));
     let kind = match () {
+        () if plain == "material" && !is_glossy() => "Diffuse",
         () if share(&["metallic", "metalness", "basemetalness", "metal"]) > 0.5 => "Conductor",
         () if share(&["transmission", "transmissionweight", "spectrans"]) > 0.5 => "Transparent",
         () => "BlinnPhong",

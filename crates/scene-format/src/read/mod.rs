@@ -11,9 +11,11 @@ mod clock;
 mod colors_elsewhere;
 mod elsewhere;
 mod everyday;
+mod figures;
 mod hints;
 mod include;
 mod kinds_elsewhere;
+mod kinds_of_figures;
 mod library;
 mod listed;
 mod marks;
@@ -53,14 +55,14 @@ pub(crate) use part::part;
 pub(crate) use pick::{PICK, pick_body};
 pub(crate) use repeat::{REPEAT, repeat_body};
 pub(crate) use synonyms::{squeezed, synonyms};
-use told::{SHOWN, article_free, field_list, field_words};
+use told::{SHOWN, article_free, field_list, field_words, one_of};
 pub(crate) use told::{describe, hinted, plain, shortened};
 pub(crate) use value::{expected, expected_for, hex_color, is_picture, linear_from_srgb, none};
 pub(crate) use variant::{Chosen, choices};
 pub(crate) use vars::{Vars, is_expression};
 
 use crate::codes;
-use crate::desc::{ITEMS, Material, Nested, Object, Scene, SphereLight};
+use crate::desc::{ITEMS, Nested, Object, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Severity, Span};
 use crate::schema::{FieldDef, StructDef, Type};
 use crate::suggest;
@@ -585,16 +587,5 @@ fn slot_of(def: &'static StructDef, key: Item<'_, '_>, guess: usize) -> Option<u
             let name = key.text();
             def.fields.iter().position(|field| field.name == name)
         }
-    }
-}
-
-/// How one of the fields of which there must be one is added: as in the example of the kind.
-fn one_of(def: &StructDef, syntax: Syntax) -> String {
-    let told = Material::TOLD.iter().chain(Object::TOLD).map(|(kind, _, example)| (*kind, *example));
-    let example = told.chain([SphereLight::TOLD]).find(|(kind, _)| *kind == def.name);
-    match (example, syntax) {
-        (Some((_, example)), Syntax::Ron) => format!("add one, as in {example}"),
-        (_, Syntax::Ron) => format!("add `{}: ..`", def.exactly_one[0]),
-        _ => syntax.of_toml(format!("add `{} = ..`", def.exactly_one[0])).into_owned(),
     }
 }

@@ -90,7 +90,7 @@ pub(super) const OBJECTS: Hints = &[
         "what is there at times only: Repeat(count: \"=if(frame < 10, 1, 0)\", items: [..]); one of several: \
          Pick(from: [..], index: 1)",
     ),
-    (&["volume", "fog", "medium", "smoke", "hair", "particles", "points"], "there is no such thing: surfaces only"),
+    (&["volume", "fog", "medium", "smoke", "hair"], "there is no such thing: surfaces only"),
 ];
 
 /// Materials of other programs.
@@ -283,9 +283,22 @@ const AMONG_OBJECTS: Hints = &[
          height)",
     ),
     (
-        &["function", "functionsurface", "graph", "plot", "surfaceplot", "parametric", "parametricsurface"],
-        "a surface over x and z is a `HeightField`, whose heights are a picture's; others are meshes: name an OBJ, \
-         OFF, PLY, STL, glTF or GLB file in a `Mesh`",
+        &[
+            "function",
+            "functionsurface",
+            "graph",
+            "plot",
+            "surfaceplot",
+            "parametric",
+            "parametricsurface",
+            "surface",
+            "plotsurface",
+            "surf",
+            "functionplot",
+            "plot3d",
+            "graph3d",
+        ],
+        super::figures::HEIGHTS_ARE,
     ),
     (
         &["helix", "spring", "spiral", "coil"],

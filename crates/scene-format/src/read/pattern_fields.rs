@@ -1,6 +1,7 @@
 //! Fields that patterns and their mappings have in other programs, and how they are said here.
 
 use super::elsewhere::{Fields, numbers, vector};
+use super::figures::{evenly, map};
 use super::{Reader, describe};
 use crate::codes;
 use crate::desc::is_texture;
@@ -160,6 +161,25 @@ pub(super) fn of_pattern(name: &str, def: &'static StructDef) -> Option<&'static
 }
 
 impl Reader<'_> {
+    /// Colours alone where stops stand, or the name of a map of them: reports it, and says that it did.
+    pub(crate) fn stops_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
+        let mut children = item.children();
+        let is_stop = |child: Item<'_, '_>| child.kind() == Kind::Struct || child.kind() == Kind::Map;
+        // Hardly any ramp has other ones.
+        let is_list = item.kind() == Kind::List && children.next().is_some_and(|first| !is_stop(first));
+        let is_name = item.kind() == Kind::Text;
+        let Some(mended) = (is_list.then(|| evenly(item))).or_else(|| is_name.then(|| map(item))).flatten() else {
+            return false;
+        };
+        let message = "a stop has a number, `at`, and a colour";
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message)
+            .expected("stops: `at` and `color` of each")
+            .hint(format!("write {mended}"));
+        fault.edit = Some(Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        true
+    }
+
     /// A stop of a ramp that is written without names: reports it, and says that it did.
     pub(crate) fn stop_elsewhere(&mut self, item: Item<'_, '_>) -> bool {
         if !matches!(item.kind(), Kind::Tuple | Kind::List) || item.name().is_some() {

@@ -11,10 +11,16 @@ pub(super) fn one_ring(name: &str, value: Item<'_, '_>, def: &'static StructDef)
     if def.name != "Extrude" || !names.contains(&name) || value.kind() != Kind::List {
         return None;
     }
+    is_ring(value).then(|| format!("{}[{}]", Fields(value.syntax()).name("outline"), value.lexeme()))
+}
+
+/// Whether a list is one ring of points, and not several rings.
+pub(super) fn is_ring(value: Item<'_, '_>) -> bool {
     let number = |item: Item<'_, '_>| matches!(item.kind(), Kind::Integer | Kind::Float);
-    let first = value.children().next()?;
-    let is_ring = matches!(first.kind(), Kind::Tuple | Kind::List) && first.children().next().is_some_and(number);
-    is_ring.then(|| format!("{}[{}]", Fields(value.syntax()).name("outline"), value.lexeme()))
+    let of_numbers = |first: Item<'_, '_>| {
+        matches!(first.kind(), Kind::Tuple | Kind::List) && first.children().next().is_some_and(number)
+    };
+    value.kind() == Kind::List && value.children().next().is_some_and(of_numbers)
 }
 
 /// What round edges are called.
@@ -78,6 +84,29 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
         ("width" | "depth" | "length" | "dimensions" | "extent", "HeightField") => {
             "how far it reaches is said by its `size`: (along x, high, along z)"
         }
+        (
+            "clip" | "clip_plane" | "clipping" | "clipping_planes" | "clip_planes" | "clipped_by" | "bounded_by"
+            | "cut",
+            _,
+        )
+        | ("zmin" | "zmax" | "z_min" | "z_max", "Sphere" | "Cylinder" | "Cone") => match def.name {
+            "Sphere" | "Box" | "Cylinder" | "Cone" | "Capsule" | "Torus" if ron => {
+                "what is cut off stands in a Difference, here all above y = 0: Difference(objects: [Sphere(radius: 1), \
+                 Box(center: (0, 5, 0), size: 10)])"
+            }
+            "Sphere" | "Box" | "Cylinder" | "Cone" | "Capsule" | "Torus" => {
+                "what is cut off stands in a `Difference`, behind the body itself"
+            }
+            "Union" | "Intersection" | "Difference" => "what is cut off is one of the `objects` of a `Difference`",
+            _ if ron => {
+                "it cannot be cut: `camera: Camera(near: 4)` leaves out what is nearer to the camera; only Boxes, \
+                 Spheres, Cylinders, Cones, Capsules and Tori may stand in a Difference"
+            }
+            _ => {
+                "it cannot be cut: the camera's `near` leaves out what is nearer to it; only Boxes, Spheres, \
+                 Cylinders, Cones, Capsules and Tori may stand in a `Difference`"
+            }
+        },
         ("water_level" | "sea_level" | "water", "HeightField") => {
             "nothing is cut off: lay a `Rectangle` at its height through it"
         }

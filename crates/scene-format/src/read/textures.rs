@@ -414,6 +414,10 @@ impl Reader<'_> {
             && let Some(metal) = super::colors_elsewhere::metal(name, item)
         {
             fault.hint = metal;
+        } else if nearest.is_none()
+            && let Some(ramp) = super::figures::ramp_of_map(name, item.syntax())
+        {
+            fault.hint = format!("a colour map is a ramp over another texture, here over v: {ramp}");
         } else if nearest.is_none() {
             fault.hint = match (self.knows_material(name), item.syntax()) {
                 (true, _) => format!("\"{}\" is a material, which has a colour of its own", shortened(name)),

@@ -2,6 +2,7 @@
 
 use super::ambiguous;
 use super::elsewhere::{Fields, numbers, whole_field};
+use super::figures;
 use super::transforms_elsewhere::{as_radians, placed};
 use super::unknown::Unknown;
 use crate::diagnostic::{Edit, Span};
@@ -108,7 +109,8 @@ const ROWS: &[Row] = &[
 /// What is said of a field that is one of several; `None` where the others are not there.
 pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
     let of_rows = || ROWS.iter().find_map(|row| of_row(unknown, row));
-    ambiguous::of(unknown).or_else(of_rows).or_else(|| by_axes(unknown)).or_else(|| placed(unknown))
+    let of_figures = || figures::of(unknown);
+    ambiguous::of(unknown).or_else(of_rows).or_else(|| by_axes(unknown)).or_else(of_figures).or_else(|| placed(unknown))
 }
 
 /// Degrees or factors by their axes: `Rotate(x: 30, y: 40)`, `Scale(x: 2)`. One turn goes about one axis.

@@ -1,6 +1,7 @@
 //! Values and names in words, for messages.
 
 use super::names;
+use crate::desc::{Material, Object, SphereLight};
 use crate::schema::StructDef;
 use crate::suggest;
 use crate::syntax::Syntax;
@@ -95,4 +96,15 @@ pub(super) fn field_words(def: &'static StructDef) -> String {
         words.extend(def.fields.first().map(|field| format!("{}: ..", field.name)));
     }
     words.join(", ")
+}
+
+/// How one of the fields of which there must be one is added: as in the example of the kind.
+pub(super) fn one_of(def: &StructDef, syntax: Syntax) -> String {
+    let told = Material::TOLD.iter().chain(Object::TOLD).map(|(kind, _, example)| (*kind, *example));
+    let example = told.chain([SphereLight::TOLD]).find(|(kind, _)| *kind == def.name);
+    match (example, syntax) {
+        (Some((_, example)), Syntax::Ron) => format!("add one, as in {example}"),
+        (_, Syntax::Ron) => format!("add `{}: ..`", def.exactly_one[0]),
+        _ => syntax.of_toml(format!("add `{} = ..`", def.exactly_one[0])).into_owned(),
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::hints::{kind_elsewhere, other_kind};
 use super::kinds_elsewhere::{needs, of_all_purposes};
-use super::{Fields, Reader, describe, plain};
+use super::{Fields, Reader, describe, kinds_of_figures, plain};
 use crate::codes;
 use crate::desc::{Metal, Scene};
 use crate::diagnostic::{Diagnostic, Edit, Span};
@@ -260,6 +260,10 @@ impl Reader<'_> {
         if let Some(polygon) = inner.filter(|_| elsewhere == Some("Rectangle")).and_then(by_corners) {
             let way = super::hinted(&polygon);
             self.report(fault.hint(format!("what is said by its corners is a polygon: {way}")));
+            return None;
+        }
+        if let Some(way) = kinds_of_figures::way(name, def, inner, syntax) {
+            self.report(fault.hint(way));
             return None;
         }
         if let Some(way) = of_all_purposes(name, def, inner, syntax) {

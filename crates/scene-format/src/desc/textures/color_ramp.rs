@@ -58,6 +58,9 @@ impl Words for Stops {
     const TYPE: Type = Type::List(&Stop::TYPE);
 
     fn read(reader: &mut Reader<'_>, item: Item<'_, '_>, at: &'static FieldDef) -> Option<Self> {
+        if reader.stops_elsewhere(item) {
+            return None;
+        }
         let before = std::mem::take(&mut reader.passed_over);
         let (mut stops, mut wrong) = (Vec::new(), false);
         reader.items(item, at, |reader, child| {
