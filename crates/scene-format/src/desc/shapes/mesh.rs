@@ -72,8 +72,8 @@ scene_struct! {
         /// With `points`: the faces, each the numbers of three or more points, counted from 0, counterclockwise seen
         /// from outside. Faces of more than three corners are cut into triangles, also where they are not convex.
         faces: WrittenFaces = WrittenFaces::default();
-        /// With `points`: a colour for each of them, which a `VertexColor` of the material shows. Numbers are linear, or
-        /// sRGB, as matplotlib gives them, with `VertexColor(color_space: Srgb)`.
+        /// With `points`: a colour for each of them, which a `VertexColor` of the material shows. Numbers are linear,
+        /// or sRGB, as matplotlib gives them, with `VertexColor(color_space: Srgb)`.
         colors: Colors = Colors::default();
         /// Its material, by name or written here; without one those of the file (the MTL of OBJ, glTF's own), else
         /// `Diffuse(albedo: 0.8)`.
