@@ -530,6 +530,7 @@ fn what_newcomers_wrote() {
         ("Arrow(from: (0, 0, 0), to: (1, 0, 0), radius: 0.1, origin: (0, 0, 0))", "`from`"),
         ("Torus(radius: 1, tube_radius: 0.2, thickness: 0.2)", "tube_radius"),
         ("Translate((0, 1, 0))", "Group("),
+        ("CenterTo((0, 1, 0))", "Group("),
         ("repeat(count: 2, items: [])", "Repeat(count"),
         ("Box(size: 1, material: Metal(preset: \"gold\", roughness: 0.2))", "Conductor(metal: Gold, roughness: 0.2)"),
         ("Box(size: 1, material: Metal(kind: Brass))", "Conductor(metal: Brass)"),

@@ -19,7 +19,7 @@ pub(super) const OBJECTS: Hints = &[
          OBJ, OFF, PLY, STL, glTF or GLB: Mesh(file: \"a.obj\")",
     ),
     (
-        &["translate", "rotate", "scale", "align", "fitto", "dropto"],
+        &["translate", "rotate", "scale", "align", "fitto", "dropto", "centerto"],
         "transforms stand in an object: `transform: [Translate((0, 1, 0))]`; several objects are moved by \
          Group(objects: [..], transform: [Translate((0, 1, 0))])",
     ),
