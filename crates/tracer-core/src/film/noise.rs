@@ -28,7 +28,7 @@
 //! told as less where pixels err together since they see the same moments: what is there for a thirtieth of a time all
 //! may miss.
 
-use super::{Crop, Film, PIXELS, Tile, luminance};
+use super::{Film, PIXELS, Tile, luminance};
 use rayon::prelude::*;
 
 /// m of eighteen pixels: they tell the noise to a sixth of itself, half of sqrt(2/18).
@@ -234,18 +234,11 @@ impl Film {
         if mean > 0.0 { (variance * self.covered()).sqrt() / mean } else { 0.0 }
     }
 
-    /// What pixels bear of the variance that independent samples would have, in the sums' own unit.
+    /// What pixels bear of the variance that independent samples would have, in the sums' own unit. On the thread that
+    /// asks: threads of a pool that is nobody's own would be missing in a process that forks.
     fn independent(&self) -> Borne {
-        let Crop { x, y, width, height } = self.crop;
-        let of_row = |y: u32| {
-            let mut borne = Borne::default();
-            (x..x + width).for_each(|x| borne.add(self.variance(x, y) / self.unit / self.unit));
-            borne
-        };
-        // One after the other, so that threads cannot show.
-        let of_rows: Vec<Borne> = (y..y + height).into_par_iter().map(of_row).collect();
         let mut borne = Borne::default();
-        of_rows.iter().for_each(|row| borne.merge(row));
+        self.pixels().for_each(|(x, y)| borne.add(self.variance(x, y) / self.unit / self.unit));
         borne
     }
 

@@ -29,6 +29,7 @@ pub fn decode(bytes: &[u8]) -> Result<DynamicImage, ImageError> {
         .all_channels()
         .first_valid_layer()
         .all_attributes()
+        .non_parallel()
         .from_buffered(Cursor::new(bytes))
         .map_err(|error| broken(error.to_string()))?;
     let layer = image.layer_data;
