@@ -517,42 +517,23 @@ fn rotation(axis: [&str; 3], angle: &str, certain: bool) -> Meant {
 }
 
 fn translation(by: [&str; 3]) -> Meant {
-    let by = by.join(", ");
-    Meant {
-        kind: "Translate",
-        noun: "translation",
-        form: "Translate((x, y, z))",
-        form_of_toml: "{ Translate = [x, y, z] }",
-        ron: format!("({by})"),
-        toml: format!("[{by}]"),
-        doubt: None,
-    }
+    of_numbers("Translate", "translation", ["Translate((x, y, z))", "{ Translate = [x, y, z] }"], by)
 }
 
 fn centring(point: [&str; 3]) -> Meant {
-    let point = point.join(", ");
-    Meant {
-        kind: "CenterTo",
-        noun: "centring",
-        form: "CenterTo((x, y, z))",
-        form_of_toml: "{ CenterTo = [x, y, z] }",
-        ron: format!("({point})"),
-        toml: format!("[{point}]"),
-        doubt: None,
-    }
+    of_numbers("CenterTo", "centring", ["CenterTo((x, y, z))", "{ CenterTo = [x, y, z] }"], point)
 }
 
 fn scaling(factors: [&str; 3]) -> Meant {
-    let factors = factors.join(", ");
-    Meant {
-        kind: "Scale",
-        noun: "scaling",
-        form: "Scale(factor) or Scale((x, y, z))",
-        form_of_toml: "{ Scale = factor } or { Scale = [x, y, z] }",
-        ron: format!("({factors})"),
-        toml: format!("[{factors}]"),
-        doubt: None,
-    }
+    let forms = ["Scale(factor) or Scale((x, y, z))", "{ Scale = factor } or { Scale = [x, y, z] }"];
+    of_numbers("Scale", "scaling", forms, factors)
+}
+
+/// A step that three numbers say.
+fn of_numbers(kind: &'static str, noun: &'static str, forms: [&'static str; 2], numbers: [&str; 3]) -> Meant {
+    let numbers = numbers.join(", ");
+    let [form, form_of_toml] = forms;
+    Meant { kind, noun, form, form_of_toml, ron: format!("({numbers})"), toml: format!("[{numbers}]"), doubt: None }
 }
 
 /// `{ Rotate = { .. }, Scale = 2 }`, our own transforms in one table, each in a table of its own.

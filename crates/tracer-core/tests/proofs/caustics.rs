@@ -172,7 +172,8 @@ fn random_scenes_48_to_53() {
 
 /// A lamp a tenth as wide, whose light plain path tracing hardly ever finds under a ball: there both err by what is
 /// rare, so the worst hundredth of the pixels of 64 seeds is left out (with it 128 seeds gave 58,058 to 184 and 20,599
-/// to 89 by two samplers; without it 11.0 to 3.2 and 11.0 to 3.3). Half of that is asked for.
+/// to 89 by two samplers; without it 11.0 to 3.2 and 11.0 to 3.3). Here it is 9.6 to 3.5; two thirds of that are asked
+/// for.
 #[test]
 #[ignore = "long: cargo xtask prove proofs"]
 fn photons_are_worth_it() {
@@ -201,5 +202,5 @@ fn photons_are_worth_it() {
     let (plain, photons) = (trimmed(Caustics::None), trimmed(Caustics::Photons));
     let gain = plain / photons;
     println!("{gain:.1} times less squared error: {plain} {photons}");
-    assert!(gain > 1.7, "only {gain:.2} times less squared error");
+    assert!(gain > 1.8, "only {gain:.2} times less squared error");
 }

@@ -10,6 +10,7 @@ mod files;
 mod layers;
 mod photons;
 mod run;
+mod sampling;
 mod scene;
 
 pub use run::{Options, run};
@@ -95,7 +96,15 @@ const fn mesh_suite(program: &'static str, filters: &'static [&'static str]) -> 
 
 /// All faults.
 pub fn all() -> impl Iterator<Item = &'static Mutant> {
-    let rooms = [curved::MUTANTS, engine::MUTANTS, photons::MUTANTS, scene::MUTANTS, files::MUTANTS, layers::MUTANTS];
+    let rooms = [
+        curved::MUTANTS,
+        engine::MUTANTS,
+        photons::MUTANTS,
+        sampling::MUTANTS,
+        scene::MUTANTS,
+        files::MUTANTS,
+        layers::MUTANTS,
+    ];
     rooms.into_iter().chain([environment::MUTANTS]).flatten()
 }
 
