@@ -41,6 +41,7 @@ pub(crate) fn leave_out(text: &str, diagnostics: &mut Vec<Diagnostic>, read: imp
     leave_out_ends(diagnostics);
     leave_out_last_word(text, diagnostics);
     leave_out_declared(text, diagnostics);
+    join_decimal_comma(text, diagnostics);
     let errors: Vec<Diagnostic> =
         diagnostics.iter().filter(|fault| fault.severity == Severity::Error).cloned().collect();
     if errors.len() < 2 || errors.len() > MANY || text.len() > LONG {
@@ -140,6 +141,34 @@ fn leave_out_last_word(text: &str, diagnostics: &mut Vec<Diagnostic>) {
         last && fault.severity == Severity::Error && fault.code != codes::UNCLOSED_BRACKET
     };
     diagnostics.retain(|fault| !within(fault));
+}
+
+/// `[0.2, 0,04]`: of the two numbers that a decimal comma makes the second is none (JSON, TOML), and whatever is wrong
+/// with the first is not told.
+fn join_decimal_comma(text: &str, diagnostics: &mut Vec<Diagnostic>) {
+    let Some((index, whole)) = diagnostics.iter().enumerate().find_map(|(index, fault)| {
+        let (start, end) = (fault.span.start as usize, fault.span.end as usize);
+        let fraction = text.get(start..end).filter(|_| fault.code == codes::BAD_NUMBER && fault.span.source == 0)?;
+        let all_digits = fraction.len() > 1 && fraction.bytes().all(|byte| byte.is_ascii_digit());
+        let before = text[..start].strip_suffix(',').filter(|_| all_digits && fraction.starts_with('0'))?;
+        let rest = before.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('-');
+        (rest.len() < before.len() && rest.ends_with([' ', '[', ','])).then_some((index, rest.len()))
+    }) else {
+        return;
+    };
+    let fault = &mut diagnostics[index];
+    fault.span.start = whole as u32;
+    let (found, written) = (fault.span, &text[whole..fault.span.end as usize]);
+    let mended = written.replacen(',', ".", 1);
+    fault.message = format!("`{written}` is not a number");
+    fault.hint = format!("numbers have a decimal point: {mended}");
+    fault.edit = Some(Edit { span: found, replacement: mended });
+    let mut at = 0;
+    diagnostics.retain(|other| {
+        at += 1;
+        let within = other.span.source == 0 && found.start <= other.span.start && other.span.end <= found.end;
+        at == index + 1 || !within
+    });
 }
 
 /// A value whose name stands in no `vars` is told once, not at each place where it is used.
@@ -369,11 +398,11 @@ fn repairs_of_line(text: &str, line: Range<usize>) -> Vec<Repair> {
         found.extend(line.clone().filter(|&at| is_edge(bytes, at)).map(|at| change(at, "", "\"")));
         return found;
     }
-    // Without its bracket a kind grows together with what follows: `Diffusealbedo: 0.5)`, `Scale1.2)`.
+    // Without its bracket a kind grows together with what follows: `Diffusealbedo: 0.5)`, `Scale1.2)`, `DropTo-1)`.
     let within = line.clone().filter(|&at| {
         let before = bytes[..at].iter().rev().take_while(|byte| byte.is_ascii_alphanumeric());
         let grown = at > 0 && bytes[at - 1].is_ascii_alphabetic();
-        let grown = grown && (bytes[at].is_ascii_lowercase() || bytes[at].is_ascii_digit());
+        let grown = grown && (bytes[at].is_ascii_lowercase() || bytes[at].is_ascii_digit() || bytes[at] == b'-');
         grown && before.last().is_some_and(u8::is_ascii_uppercase)
     });
     found.extend(within.map(|at| change(at, "", "(")));
@@ -399,7 +428,8 @@ fn excess_of(byte: Option<u8>, kind: usize) -> i32 {
 }
 
 /// Lines whose own brackets are as uneven as those of the file, and that begin with something other than a bracket
-/// which closes: there one is likely to be missing or too many, wherever it is noticed.
+/// which closes, and lines of nothing but such brackets, two of a kind side by side (`]],`): there one is likely to be
+/// missing or too many, wherever it is noticed.
 fn uneven_lines(text: &str, excess: [i32; 3], known: &[Range<usize>]) -> Vec<Range<usize>> {
     let mut at = 0;
     let lines = text.split('\n').map(|line| {
@@ -409,10 +439,13 @@ fn uneven_lines(text: &str, excess: [i32; 3], known: &[Range<usize>]) -> Vec<Ran
     });
     let uneven = lines.filter(|line| {
         let written = &text[line.clone()];
-        line.len() <= LINE_BYTES
-            && !written.trim_start().starts_with([')', ']', '}'])
-            && self::excess(written) == excess
-            && !known.contains(line)
+        let closers = written.trim().trim_end_matches(',').as_bytes();
+        let twice = closers.windows(2).any(|pair| pair[0] == pair[1]);
+        let likely = match closers {
+            [b')' | b']' | b'}', ..] => twice && closers.iter().all(|byte| b")]}".contains(byte)),
+            _ => self::excess(written) == excess,
+        };
+        likely && line.len() <= LINE_BYTES && !known.contains(line)
     });
     uneven.take(LINES).collect()
 }

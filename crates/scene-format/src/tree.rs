@@ -169,6 +169,20 @@ impl Builder {
         self.nodes.len() - 1
     }
 
+    /// Whether all subtrees end within those around them.
+    pub fn is_nested(&self) -> bool {
+        let mut around = vec![self.nodes.len()];
+        self.nodes.iter().enumerate().all(|(index, node)| {
+            while around.len() > 1 && around.last().is_some_and(|&end| end <= index) {
+                around.pop();
+            }
+            let end = index + node.size as usize;
+            let within = node.size > 0 && around.last().is_some_and(|&outer| end <= outer);
+            around.push(end);
+            within
+        })
+    }
+
     pub fn close(&mut self, opened: usize, kind: Kind, end: usize) {
         let size = (self.nodes.len() - opened) as u32;
         if let Some(node) = self.nodes.get_mut(opened) {

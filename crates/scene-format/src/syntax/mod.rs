@@ -219,6 +219,7 @@ pub(crate) fn parse_as<'s>(source: u16, text: &'s str, syntax: Syntax, sink: &mu
             (Tape::default(), HashMap::new())
         }
     };
+    debug_assert!(builder.is_nested(), "nodes of a subtree beyond its end: {text}");
     let texts = vec![Text { text, syntax, folder: Path::new("") }];
     Tree { texts, nodes: builder.nodes, added, comments, damaged: sink.errors > errors, ..Tree::default() }
 }

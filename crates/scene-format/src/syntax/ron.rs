@@ -64,6 +64,9 @@ pub(super) struct Parser<'p> {
     pub at_end_reported: bool,
     /// The comma after the entry was read already, inside a bracket that was never closed.
     pub separated: bool,
+    /// The node of the field name that was read last, with its value, of the innermost bracket that is open if that has
+    /// fields.
+    pub last_field: usize,
     trust: Trust,
     /// Where the current line begins, and how far its first word is indented.
     pub line: usize,
@@ -91,6 +94,7 @@ impl<'p> Parser<'p> {
             open: Vec::new(),
             at_end_reported: false,
             separated: false,
+            last_field: usize::MAX,
             trust,
             line: 0,
             indent: 0,

@@ -9,12 +9,18 @@ use crate::tree::Kind;
 impl Parser<'_> {
     /// `name: value`, with `=` for `:` reported.
     pub(super) fn field(&mut self, length: usize) {
-        let start = self.at;
+        let (start, key) = (self.at, self.builder.nodes.len());
         self.builder.leaf(Kind::Key, start, start + length);
         self.at += length;
         self.trivia();
         self.joined(start + length);
         self.trivia();
+        self.value_of_name();
+        self.last_field = key;
+    }
+
+    /// The value behind a name; of a vector without its brackets all of it, which is reported.
+    fn value_of_name(&mut self) {
         let mark = self.builder.nodes.len();
         self.value();
         if let Some((end, fault)) = bare_numbers::report(self.text, Syntax::Ron, mark, self.at, self.builder) {
@@ -120,28 +126,33 @@ impl Parser<'_> {
         }
     }
 
-    /// `transform: Translate(..), RotateY(20)`: the rest of the list, if the field before is one.
+    /// `transform: Translate(..), RotateY(20)` and `colors: "#f00", "#0f0"`: the rest of the list, if the field before
+    /// is one.
     fn list_without_brackets(&mut self) -> bool {
-        const LISTS: [&str; 5] = ["transform", "placements", "objects", "lights", "of"];
-        // Transforms are no longer; a file of values must not take quadratic time.
-        const LONGEST: usize = 64;
-        let kind_ahead = |parser: &Self| {
-            parser.peek().is_some_and(|byte| byte.is_ascii_uppercase())
-                && parser.rest()[parser.word_length()..].starts_with('(')
-        };
-        let end = self.builder.nodes.len();
-        let ends_here =
-            |index: &usize| self.builder.nodes.get(*index).is_some_and(|node| index + node.size as usize == end);
-        let Some(value) = (end.saturating_sub(LONGEST)..end).find(ends_here) else { return false };
-        let Some(key) = value.checked_sub(1).and_then(|key| self.builder.nodes.get(key)) else { return false };
+        const OF_KINDS: [&str; 5] = ["transform", "placements", "objects", "lights", "of"];
+        const OF_TEXTS: [&str; 3] = ["colors", "include", "masks"];
+        let nodes = &self.builder.nodes;
+        let value = self.last_field.saturating_add(1);
+        let (Some(key), Some(first)) = (nodes.get(self.last_field), nodes.get(value)) else { return false };
+        if value + first.size as usize != nodes.len() {
+            return false;
+        }
         let field = self.text[key.start as usize..key.end as usize].to_owned();
-        let start = self.builder.nodes.get(value).map_or(0, |node| node.start as usize);
-        let of_kind = self.text[start..].starts_with(|c: char| c.is_ascii_uppercase());
-        if key.kind != Kind::Key || !LISTS.contains(&field.as_str()) || !of_kind || !kind_ahead(self) {
+        let start = first.start as usize;
+        let of_kinds = self.text[start..].starts_with(|c: char| c.is_ascii_uppercase());
+        let named = if of_kinds { OF_KINDS.contains(&&*field) } else { OF_TEXTS.contains(&&*field) };
+        let ahead = |parser: &Self| match parser.peek() {
+            Some(b'"') => !of_kinds,
+            Some(byte) => {
+                of_kinds && byte.is_ascii_uppercase() && parser.rest()[parser.word_length()..].starts_with('(')
+            }
+            None => false,
+        };
+        if key.kind != Kind::Key || !named || !ahead(self) {
             return false;
         }
         let mut last = self.at;
-        while kind_ahead(self) {
+        while ahead(self) {
             self.value();
             last = self.at;
             self.trivia();
@@ -150,8 +161,20 @@ impl Parser<'_> {
                 self.trivia();
             }
         }
-        self.separated = true;
         self.builder.nodes.truncate(value);
+        if self.peek() == Some(b']') {
+            // Only the first bracket is missing.
+            self.at += 1;
+            self.builder.leaf(Kind::Broken, start, self.at);
+            let found = self.span(start, self.at);
+            let mut fault = Diagnostic::error(codes::STRAY_BRACKET, found, "this list has no `[` before it")
+                .expected("a list: [a, b, c]")
+                .hint("write `[` before the first value");
+            fault.edit = Some(Edit { span: self.span(start, start), replacement: "[".to_owned() });
+            self.sink.push(fault);
+            return true;
+        }
+        self.separated = true;
         self.builder.leaf(Kind::Broken, start, last);
         let list = format!("[{}]", &self.text[start..last]);
         let found = self.span(start, last);
@@ -317,7 +340,7 @@ impl Parser<'_> {
             }
         }
         self.trivia();
-        self.value();
+        self.value_of_name();
     }
 
     /// `{ Mirror() }`: an entry without its name, which is reported.

@@ -207,6 +207,8 @@ impl Words for Mesh {
                 let value = InlineMesh { points: points.value, faces: faces.value, colors };
                 MeshSource::Inline(Arc::new(Spanned { value, span }))
             }
+            // What could not be read may have been the faces.
+            (None, Written::As(_), Written::Not) if item.is_damaged() => return None,
             (None, Written::As(points), Written::Not) => {
                 reader.report(
                     Diagnostic::error(codes::MISSING_FIELD, points.span, "a mesh of points needs the field `faces`")
