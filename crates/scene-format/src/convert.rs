@@ -397,6 +397,10 @@ impl Converter<'_, '_> {
     fn of_var(&mut self, item: Item<'_, '_>) -> Form {
         let is_number = |x: Item<'_, '_>| x.number().is_some() || is_expression(x);
         let is_point = || matches!(item.children().count(), 2 | 3) && item.children().all(is_number);
+        static VALUE: Type = Type::Value;
+        if let Some(body) = repeat_body(item) {
+            return self.repeat(body, &VALUE);
+        }
         if item.kind() != Kind::List || (self.from != Syntax::Ron && is_point()) {
             return if matches!(item.kind(), Kind::List | Kind::Tuple) { self.vector(item) } else { self.value(item) };
         }

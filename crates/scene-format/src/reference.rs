@@ -119,6 +119,9 @@ hide those around.
 - `Pick(from: [..], index: ..)` stands for one of its values, any kind of value, counted from 0; after the last the \
 first follows again:
   `material: Pick(from: [\"red\", \"blue\"], index: \"=i\")`. Those that are not picked are not read.
+- A list in `vars` may be made so, for all that go by it:
+  `vars: { \"spiral\": [Repeat(count: 50, items: [\"=0.1*sqrt(i)*(cos(137.5*i), 0, \
+sin(137.5*i))\"])] }`, `Tube(points: \"=spiral\", radius: 0.01)`.
 - With a count of 0 its items are not read. `--set` reaches nothing within; it sets the `vars` that it goes by.
 - Expressions are never read in names, files and kinds. They have no loops and end always; the same values on every \
 machine.

@@ -1,6 +1,6 @@
 //! Lists in `vars`, and expressions that stand for a whole list of points, numbers or colours.
 
-use scene_format::{Defaults, Diagnostics, LoadError, Override, Syntax, load_str, mend, to_ron};
+use scene_format::{Defaults, Diagnostics, LoadError, Override, Syntax, convert, load_str, mend, to_ron};
 use std::path::Path;
 
 /// What is wrong with a scene, or the scene with all that it comes to.
@@ -147,4 +147,52 @@ fn the_item_that_is_wrong_is_told() {
     );
     let faults = read(&text, Syntax::Ron).expect_err("a colour is too bright");
     assert!(matches!(&*faults, [only] if only.message.ends_with("(item 2 of the list, from 0)")), "{faults:#?}");
+}
+
+/// What repetitions put into a list of `vars` is the list as it is written, in all syntaxes.
+#[test]
+fn a_repeated_list_is_the_list() {
+    for (vars, object, written) in [
+        // Names of the scene that are reckoned later, an index and vars of its own.
+        (
+            "\"p\": [Repeat(count: \"=n\", index: \"k\", vars: { \"x\": \"=2*k\" }, items: [\"=(x, k*k, c)\"])], \"n\": 3, \"c\": \"=n + 1\"",
+            "Tube(points: \"=p\", radius: 0.1)",
+            "Tube(points: [(0, 0, 4), (2, 1, 4), (4, 4, 4)], radius: 0.1)",
+        ),
+        // Beside others, and within each other.
+        (
+            "\"p\": [(9, 9), Repeat(count: 2, items: [Repeat(count: 2, index: \"j\", items: [\"=(i, 2 + j)\"])])]",
+            "Lathe(profile: \"=p\")",
+            "Lathe(profile: [(9, 9), (0, 2), (0, 3), (1, 2), (1, 3)])",
+        ),
+        // Of a var that another repetition asks for first.
+        (
+            "\"a\": [Repeat(count: 4, items: [\"=b[i]/10\"])], \"b\": [Repeat(count: 4, items: [\"=i + 1\"])]",
+            "Sphere(radius: \"=a[3]\")",
+            "Sphere(radius: 0.4)",
+        ),
+    ] {
+        let ron = scene(vars, object);
+        let expected = read(&scene("", written), Syntax::Ron).expect("it is right");
+        assert_eq!(read(&ron, Syntax::Ron).expect("it is right"), expected, "{ron}");
+        for syntax in [Syntax::Toml, Syntax::Json] {
+            let other = convert("scene", &ron, Syntax::Ron, syntax).expect("it is right");
+            assert_eq!(read(&other, syntax).expect("it is right"), expected, "{other}");
+        }
+    }
+}
+
+/// Vars that wait for each other, repetitions among them, are too many before they take all of a thread's stack.
+#[test]
+fn vars_that_wait_end_before_the_stack() {
+    let repeat = "Repeat(count: 1, items: [";
+    for nested in [0, 8] {
+        let vars: Vec<String> = (0..250)
+            .map(|k| format!("\"v{k}\": [{}\"=v{}[0]\"{}]", repeat.repeat(nested), k + 1, "])".repeat(nested)))
+            .collect();
+        let text = scene(&format!("{}, \"v250\": [1, 2, 3, 4]", vars.join(", ")), "Sphere(radius: \"=v0[0]\")");
+        let read = std::thread::Builder::new().stack_size(2 << 20).spawn(move || read(&text, Syntax::Ron));
+        let faults = read.expect("a thread").join().expect("it ends").expect_err("they are too many");
+        assert!(faults.iter().any(|fault| fault.message.contains("wait for each other")), "{faults:?}");
+    }
 }

@@ -133,7 +133,10 @@ fn walk<'t, 's>(item: Item<'t, 's>, at: At<'t, 's>, meet: &mut dyn FnMut(&Visit<
         (Type::Vector | Type::Pair | Type::Color | Type::Value | Type::Rows, ..) => {
             let component = if matches!(kind, Type::Value | Type::Rows) { Type::Value } else { Type::Number };
             for child in item.children().filter(|child| child.kind() != Kind::Key) {
-                walk(child, inner(component), meet);
+                match repeat_body(child).filter(|_| matches!(kind, Type::Value) && item.kind() == Kind::List) {
+                    Some(body) => repeat(body, component, inner(kind), meet),
+                    None => walk(child, inner(component), meet),
+                }
             }
         }
         (Type::Enum(_), Some(Content::Value(field)), Some(body)) => {

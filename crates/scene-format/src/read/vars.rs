@@ -1,6 +1,7 @@
 //! Values by name, and the expressions that use them.
 
 use super::radians::{holds_radians, in_radians};
+use super::repeat::repeat_body;
 use super::seeds::as_range;
 use super::{Reader, Step, hinted, shortened};
 use crate::codes;
@@ -15,8 +16,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Vars that are reckoned for each other, at most.
-const MOST_OPEN: usize = 200;
+/// Vars, and repetitions in them, that are reckoned for each other, at most: with all that may stand in them they take
+/// less than the two megabytes of a thread.
+const MOST_OPEN: usize = 64;
 
 /// The field `vars`: its values stay with the reader.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -55,7 +57,7 @@ pub(super) struct Table {
     frames: Vec<usize>,
     /// The item of a list that is being read where the expression stands whose place on the tape this is.
     pub(super) element: Option<(u32, Value)>,
-    /// So many are being reckoned, each for the one before.
+    /// So many are being reckoned, each for the one before, repetitions in them among them.
     open: usize,
     /// Where one takes radians for degrees, which was told.
     told_of_radians: BTreeSet<Span>,
@@ -262,7 +264,7 @@ impl Reader<'_> {
             if self.vars.open >= MOST_OPEN {
                 if !std::mem::replace(&mut self.vars.waits_too_long, true) {
                     let span = self.vars.list[k].span;
-                    let message = format!("more than {MOST_OPEN} vars wait for each other");
+                    let message = format!("more than {MOST_OPEN} vars and repetitions in them wait for each other");
                     let fault = Diagnostic::error(codes::TOO_MUCH, span, message).expected("fewer");
                     self.report(fault.hint("write those first that others need"));
                 }
@@ -271,7 +273,11 @@ impl Reader<'_> {
             }
             self.vars.open += 1;
             self.vars.list[k].state = State::Open;
-            let value = near.other(self.vars.list[k].slot).and_then(|item| self.value(item));
+            let item = near.other(self.vars.list[k].slot);
+            let value = item.and_then(|item| match self.vars.frames.first() {
+                Some(&first) if k < first => self.value_of_scene(item, first),
+                _ => self.value(item),
+            });
             self.vars.open -= 1;
             // A circle has been told where it closes.
             if let State::Open = self.vars.list[k].state {
@@ -280,6 +286,17 @@ impl Reader<'_> {
             }
         }
         self.vars.list[k].state.clone()
+    }
+
+    /// The value of a var of the scene, which sees no names of the repetition that asks for it: those from number
+    /// `first` on.
+    fn value_of_scene(&mut self, item: Item<'_, '_>, first: usize) -> Option<Value> {
+        let hidden = self.vars.list.split_off(first);
+        let (frames, indices) = (std::mem::take(&mut self.vars.frames), std::mem::take(&mut self.indices));
+        let value = self.value(item);
+        self.vars.list.extend(hidden);
+        (self.vars.frames, self.indices) = (frames, indices);
+        value
     }
 
     /// A value of `vars`.
@@ -303,10 +320,7 @@ impl Reader<'_> {
                 None => self.text_color(item, &VAR).map(Value::Triple),
             },
             Kind::List | Kind::Tuple if item.name().is_none() => {
-                let mut items = Vec::new();
-                for child in item.children() {
-                    items.push(self.value(child)?);
-                }
+                let items = self.values(item)?;
                 let numbers: Option<Vec<f64>> =
                     items.iter().map(|item| if let Value::Number(x) = item { Some(*x) } else { None }).collect();
                 let is_vector =
@@ -326,8 +340,34 @@ impl Reader<'_> {
                 }
                 list.map(Value::List)
             }
+            _ if repeat_body(item).is_some() => {
+                let message = "a repetition stands in a list";
+                let fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message).expected(expected());
+                self.report(fault.hint("write it in square brackets: [Repeat(..)]"));
+                None
+            }
             _ => self.wrong_kind(item, "the value of a var", expected(), None),
         }
+    }
+
+    /// The values of a list; a `Repeat` among them stands for its items.
+    fn values(&mut self, item: Item<'_, '_>) -> Option<Vec<Value>> {
+        let mut values = Vec::new();
+        for child in item.children() {
+            let Some(body) = repeat_body(child).filter(|_| item.kind() == Kind::List) else {
+                values.push(self.value(child)?);
+                continue;
+            };
+            let mut whole = true;
+            self.vars.open += 1;
+            let repeated = self.repeat(body, &VAR, &mut |reader, child| match reader.value(child) {
+                Some(value) => values.push(value),
+                None => whole = false,
+            });
+            self.vars.open -= 1;
+            repeated.filter(|()| whole)?;
+        }
+        Some(values)
     }
 
     /// Reports more numbers than a vector has in the brackets of one: a list has its own.
