@@ -155,7 +155,8 @@ fn a_repeated_list_is_the_list() {
     for (vars, object, written) in [
         // Names of the scene that are reckoned later, an index and vars of its own.
         (
-            "\"p\": [Repeat(count: \"=n\", index: \"k\", vars: { \"x\": \"=2*k\" }, items: [\"=(x, k*k, c)\"])], \"n\": 3, \"c\": \"=n + 1\"",
+            "\"p\": [Repeat(count: \"=n\", index: \"k\", vars: { \"x\": \"=2*k\" }, items: [\"=(x, k*k, c)\"])], \
+             \"n\": 3, \"c\": \"=n + 1\"",
             "Tube(points: \"=p\", radius: 0.1)",
             "Tube(points: [(0, 0, 4), (2, 1, 4), (4, 4, 4)], radius: 0.1)",
         ),
