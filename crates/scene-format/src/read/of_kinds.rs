@@ -13,7 +13,23 @@ pub(super) const OBJECTS: Hints = &[
          2)",
     ),
     (
-        &["pyramid", "tetrahedron", "octahedron", "icosahedron", "dodecahedron", "polyhedron", "loft"],
+        &["tetrahedron"],
+        "its corners and faces stand in the scene: Mesh(points: [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], \
+         faces: [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])",
+    ),
+    (
+        &["octahedron"],
+        "its corners and faces stand in the scene: Mesh(points: [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, \
+         1), (0, 0, -1)], faces: [[0, 2, 4], [0, 3, 5], [0, 4, 3], [0, 5, 2], [1, 2, 5], [1, 3, 4], [1, 4, 2], [1, 5, \
+         3]])",
+    ),
+    (
+        &["icosahedron", "dodecahedron", "platonicsolid", "platonic"],
+        "its corners and faces stand in the scene: Mesh(points: [..], faces: [..]); all five regular solids are in \
+         scenes/cookbook/platonic_solids.ron",
+    ),
+    (
+        &["pyramid", "polyhedron", "loft"],
         "its corners and faces may stand in the scene: Mesh(points: [(0, 1, 0), (-1, 0, -1), (1, 0, -1), (1, 0, 1), \
          (-1, 0, 1)], faces: [[0, 4, 3], [0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 3, 4]]), or in a file, \
          OBJ, OFF, PLY, STL, glTF or GLB: Mesh(file: \"a.obj\")",
