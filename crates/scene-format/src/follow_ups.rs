@@ -146,29 +146,28 @@ fn leave_out_last_word(text: &str, diagnostics: &mut Vec<Diagnostic>) {
 /// `[0.2, 0,04]`: of the two numbers that a decimal comma makes the second is none (JSON, TOML), and whatever is wrong
 /// with the first is not told.
 fn join_decimal_comma(text: &str, diagnostics: &mut Vec<Diagnostic>) {
-    let Some((index, whole)) = diagnostics.iter().enumerate().find_map(|(index, fault)| {
+    while let Some((index, whole)) = diagnostics.iter().enumerate().find_map(|(index, fault)| {
         let (start, end) = (fault.span.start as usize, fault.span.end as usize);
         let fraction = text.get(start..end).filter(|_| fault.code == codes::BAD_NUMBER && fault.span.source == 0)?;
         let all_digits = fraction.len() > 1 && fraction.bytes().all(|byte| byte.is_ascii_digit());
         let before = text[..start].strip_suffix(',').filter(|_| all_digits && fraction.starts_with('0'))?;
         let rest = before.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('-');
         (rest.len() < before.len() && rest.ends_with([' ', '[', ','])).then_some((index, rest.len()))
-    }) else {
-        return;
-    };
-    let fault = &mut diagnostics[index];
-    fault.span.start = whole as u32;
-    let (found, written) = (fault.span, &text[whole..fault.span.end as usize]);
-    let mended = written.replacen(',', ".", 1);
-    fault.message = format!("`{written}` is not a number");
-    fault.hint = format!("numbers have a decimal point: {mended}");
-    fault.edit = Some(Edit { span: found, replacement: mended });
-    let mut at = 0;
-    diagnostics.retain(|other| {
-        at += 1;
-        let within = other.span.source == 0 && found.start <= other.span.start && other.span.end <= found.end;
-        at == index + 1 || !within
-    });
+    }) {
+        let fault = &mut diagnostics[index];
+        fault.span.start = whole as u32;
+        let (found, written) = (fault.span, &text[whole..fault.span.end as usize]);
+        let mended = written.replacen(',', ".", 1);
+        fault.message = format!("`{written}` is not a number");
+        fault.hint = format!("numbers have a decimal point: {mended}");
+        fault.edit = Some(Edit { span: found, replacement: mended });
+        let mut at = 0;
+        diagnostics.retain(|other| {
+            at += 1;
+            let within = other.span.source == 0 && found.start <= other.span.start && other.span.end <= found.end;
+            at == index + 1 || !within
+        });
+    }
 }
 
 /// A value whose name stands in no `vars` is told once, not at each place where it is used.

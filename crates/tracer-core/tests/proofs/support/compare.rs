@@ -24,8 +24,9 @@ const FAMILY_LEVEL: f64 = 0.01;
 /// chance, so one of the scenes is in most runs: what differs is rendered once more (`Round`).
 const MEANS: f64 = 3.0;
 
-/// What seems to differ is looked at once more, with four times the samples and other seeds: a true difference is twice
-/// as many standard errors then; one by chance is found again in one of 190 means, so in one of some 100 runs of all.
+/// Means that seem to differ are looked at once more, with four times the samples and other seeds: a true difference is
+/// twice as many standard errors then; one by chance is found again in one of 190 means, so in one of some 100 runs of
+/// all. Tiles, whose level is that of all scenes together, have one round.
 #[derive(Clone, Copy)]
 struct Round {
     times: u32,
@@ -156,22 +157,31 @@ pub fn noise(desc: &SceneDesc, samples: u32) -> f64 {
     pixels([0, 0, width, height]).map(of_pixel).sum()
 }
 
-/// Asserts that nothing differs, or what did no more when it is looked at closer.
-fn in_rounds(name: &str, differences: impl Fn(Round) -> Vec<String>) {
+/// What differs in two pictures.
+struct Differences {
+    tiles: Vec<String>,
+    means: Vec<String>,
+}
+
+/// Asserts that no tile differs, and no mean, or none any more when it is looked at closer.
+fn in_rounds(name: &str, differences: impl Fn(Round) -> Differences) {
     let mut faults = Vec::new();
     for round in ROUNDS {
-        faults = differences(round);
-        if faults.is_empty() {
+        let Differences { tiles, means } = differences(round);
+        assert!(tiles.is_empty(), "{name} differs:\n{}", tiles.join("\n"));
+        if means.is_empty() {
             return;
         }
-        println!("{name} differs with {} times the samples:\n{}", round.times, faults.join("\n"));
+        println!("{name} differs with {} times the samples:\n{}", round.times, means.join("\n"));
+        faults = means;
     }
     panic!("{name} differs:\n{}", faults.join("\n"));
 }
 
 /// Asserts that tiles and means of two pictures of the same scene are equal.
 pub fn assert_agree(name: &str, size: [u32; 2], one: &Told<'_>, other: &Told<'_>) {
-    let faults = differences(name, size, 1, one, other);
+    let Differences { tiles, means } = differences(name, size, 1, one, other);
+    let faults = [tiles, means].concat();
     assert!(faults.is_empty(), "{name} differs:\n{}", faults.join("\n"));
 }
 
@@ -179,13 +189,13 @@ pub fn assert_agree(name: &str, size: [u32; 2], one: &Told<'_>, other: &Told<'_>
 type Told<'a> = dyn Fn(Rectangle, usize) -> Estimate + 'a;
 
 /// Tiles and means that differ in two pictures of the same scene, one of `scenes`.
-fn differences(name: &str, [width, height]: [u32; 2], scenes: usize, one: &Told<'_>, other: &Told<'_>) -> Vec<String> {
+fn differences(name: &str, [width, height]: [u32; 2], scenes: usize, one: &Told<'_>, other: &Told<'_>) -> Differences {
     let tiles: Vec<Rectangle> = (0..height.div_ceil(TILE))
         .flat_map(|y| (0..width.div_ceil(TILE)).map(move |x| (x, y)))
         .map(|(x, y)| [x * TILE, y * TILE, width.min((x + 1) * TILE), height.min((y + 1) * TILE)])
         .collect();
     let level = sidak(sidak(FAMILY_LEVEL, scenes), 3 * tiles.len());
-    let mut faults = Vec::new();
+    let mut found = Differences { tiles: Vec::new(), means: Vec::new() };
     let mut worst = 0.0f64;
     let line = |place: String, ours: &Estimate, theirs: &Estimate, z: f64| {
         let (a, b) = (ours.mean, theirs.mean);
@@ -199,7 +209,7 @@ fn differences(name: &str, [width, height]: [u32; 2], scenes: usize, one: &Told<
             // False for no number, too.
             let same = comparison.probability >= level;
             if !same {
-                faults.push(line(format!("pixels {tile:?} channel {channel}"), &ours, &theirs, comparison.z));
+                found.tiles.push(line(format!("pixels {tile:?} channel {channel}"), &ours, &theirs, comparison.z));
             }
         }
     }
@@ -211,10 +221,10 @@ fn differences(name: &str, [width, height]: [u32; 2], scenes: usize, one: &Told<
         println!("{name}: {line}; worst tile z {worst:.2}");
         let same = z.abs() <= MEANS;
         if !same {
-            faults.push(line);
+            found.means.push(line);
         }
     }
-    faults
+    found
 }
 
 /// Compares, allowing for the rounding of `f32` where there is no noise to hide it: a picture of 10 operations per
