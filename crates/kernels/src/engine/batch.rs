@@ -245,10 +245,12 @@ pub struct Members {
     pub geometric: Columns,
     /// Direction to the viewer.
     pub wo: Columns,
-    /// What the path carried to here times the material's colour.
+    /// What the path carried to here times the material's colour, but for metals.
     pub weight: Columns,
     /// How it scatters: `stages::materials::Packed`.
     pub numbers: [Column<f32>; 2],
+    /// Metals, from which rays are aimed: their colour at right angles, and the tint that a texture gives.
+    pub colors: [Columns; 2],
     /// Probability that the path went on from here; where rays are aimed, what [`Paths::eta2`] holds.
     pub survival: Column<f32>,
     /// Where rays are aimed: what [`Paths::film`] holds.
@@ -268,10 +270,14 @@ pub struct Members {
 }
 
 impl Members {
-    /// Moves those of the mask, from `from` on, to `to`, which does not lie behind.
+    /// Moves those of the mask, from `from` on, to `to`, which does not lie behind; with what only metals have, where
+    /// there may be some.
     #[inline(always)]
-    pub fn keep<F: Lanes>(&mut self, from: usize, mask: F::M, to: usize) {
+    pub fn keep<F: Lanes>(&mut self, from: usize, mask: F::M, to: usize, metals: bool) {
         for columns in [&mut self.start, &mut self.normal, &mut self.geometric, &mut self.wo, &mut self.weight] {
+            V3::<F>::load(columns, from).compress(mask, columns, to);
+        }
+        for columns in self.colors.iter_mut().filter(|_| metals) {
             V3::<F>::load(columns, from).compress(mask, columns, to);
         }
         let [first, second] = &mut self.numbers;

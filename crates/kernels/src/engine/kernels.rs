@@ -14,7 +14,7 @@ use crate::lanes::ArrayF;
 use crate::lanes::{F8, F16, Pair};
 use crate::layers::LayerSet;
 use crate::level::{Level, Set};
-use crate::scene::{Scene, SphereTable};
+use crate::scene::{ConductorTable, Scene, SphereTable};
 
 /// The stages for one lane type. Calling them is `unsafe`: the CPU must have the features of the level they come from.
 #[derive(Clone, Copy)]
@@ -29,7 +29,7 @@ pub struct Kernels {
     occluded: unsafe fn(&SphereTable, &mut Batch),
     reach_closest: unsafe fn(&TopBoxes, &mut Batch),
     reach_occluded: unsafe fn(&TopBoxes, &mut Batch),
-    aim: unsafe fn(&Guide, u32, u32, &mut Batch),
+    aim: unsafe fn(Option<&ConductorTable>, &Guide, u32, u32, &mut Batch),
     share_segments: unsafe fn(&Scene, &Obstacles, usize, &mut Batch) -> usize,
     share_gather: unsafe fn(&mut Batch),
     photons_emit: unsafe fn(&Scene, &Plan, PhotonPass<'_>, &mut Batch),
@@ -79,8 +79,8 @@ macro_rules! kernels {
                 reach::reach_occluded::<$lanes>(boxes, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn aim_entry(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
-                aim::aim::<$lanes>(guide, seed, vertex, batch)
+            fn aim_entry(metals: Option<&ConductorTable>, guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
+                aim::aim::<$lanes>(metals, guide, seed, vertex, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn share_segments_entry(scene: &Scene, obstacles: &Obstacles, next: usize, batch: &mut Batch) -> usize {
@@ -200,9 +200,9 @@ impl Kernels {
         unsafe { (self.occluded)(of, batch) }
     }
     /// Aimed rays from the rough surfaces of vertex `vertex`.
-    pub fn aim(&self, guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
+    pub fn aim(&self, scene: &Scene, guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
-        unsafe { (self.aim)(guide, seed, vertex, batch) }
+        unsafe { (self.aim)(scene.tables.materials.conductors.as_ref(), guide, seed, vertex, batch) }
     }
     /// Segments from suffix `next` on; gives the suffix to go on with.
     pub fn share_segments(&self, scene: &Scene, obstacles: &Obstacles, next: usize, batch: &mut Batch) -> usize {

@@ -96,8 +96,8 @@ scene_words! {
         /// The second vertices of the paths of 64 pixels light all of these pixels: far less noise for the time in the
         /// light that one matt surface throws on another. Light gathered by mirrors and glass (caustics) gains nothing
         /// from it, for it stays with the pixel whose path has found it; `render.caustics` is for that. Under a
-        /// background this is done indoors: in all blocks where a trial finds that nine in ten paths meet a second matt
-        /// surface, in none where it is six.
+        /// background this is done indoors: in all blocks where a trial finds that three in four paths meet a second
+        /// matt surface, in none where it is six in ten.
         Blocks,
         /// Every pixel for itself, as denoisers expect it.
         None,
@@ -110,7 +110,7 @@ scene_words! {
         /// Photons are sent from the lights over mirrors and glass, and tell where rays from other surfaces are aimed.
         /// They bring no light themselves. Light paths bring it to surfaces that the camera sees. Each way counts by
         /// how likely it was, so the picture is right on average. What mirrors and glass show of lamps is sampled four
-        /// times as often.
+        /// times as often. Rays are aimed at the `background` as well, where it is seen through windows and doors ajar.
         Photons,
         /// By the rays that happen to meet a light: right on average, and slow to become smooth.
         None,

@@ -280,7 +280,16 @@ fn painter<'a>(
     let plain = Pass { task, ..Pass::plain(film.seed(), film.level.lanes()) };
     let has_samples = samples_total > 0;
     let lighting = |(k, engine): (usize, Engine<'a>)| {
-        let techniques = techniques::plan(Trial { engine, options, crop, has_samples, pass: plain, pool, plan: None });
+        let techniques = techniques::plan(Trial {
+            engine,
+            options,
+            crop,
+            has_samples,
+            pass: plain,
+            pool,
+            wants_guides: false,
+            plan: None,
+        });
         Lighting { engine, group: (!lit.is_empty()).then_some([k, lit.len()]), techniques }
     };
     let lightings = lighting::engines(engine, lit).into_iter().enumerate().map(lighting).collect();

@@ -82,7 +82,7 @@ fn ambient(engine: Engine<'_>, pass: Pass<'_>, distance: f32, batch: &mut Batch)
 }
 
 /// What the rays of a vertex hit, and what layers want of it.
-fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
+pub fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     let for_layers = vertex == 0 && pass.layers.are_of_hits() && engine.is_first;
     counting::paths(engine, pass.layers, vertex == 0, batch);
     closest(engine, vertex == 0, batch);
@@ -97,7 +97,7 @@ fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
 }
 
 /// Which shadow rays arrive, and what they bring.
-fn seen(engine: Engine<'_>, pass: Pass<'_>, batch: &mut Batch) {
+pub fn seen(engine: Engine<'_>, pass: Pass<'_>, batch: &mut Batch) {
     counting::shadows(engine, pass.layers, batch);
     occluded(engine, false, batch);
     deposit(batch);

@@ -112,11 +112,53 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: kernel_units(&["engine::stages::aim"]),
     },
     Mutant {
+        name: "no-rays-around-the-cones",
+        file: AIM,
+        find: "const AROUND: f32 = 0.2;",
+        replace: "const AROUND: f32 = 0.0;",
+        caught_by: kernel_units(&["engine::stages::aim"]),
+    },
+    Mutant {
+        name: "rays-around-the-cones-as-dense-as-within",
+        file: AIM,
+        find: "c(AROUND / WIDER), c(0.0))",
+        replace: "c(AROUND), c(0.0))",
+        caught_by: kernel_units(&["engine::stages::aim"]),
+    },
+    Mutant {
+        name: "rough-metals-aim-nothing",
+        file: SHARING,
+        find: "let mut aims = at.surfaces & at.bsdf.rough()",
+        replace: "let mut aims = at.surfaces & at.bsdf.has_one_color()",
+        caught_by: proofs(&["aimed::light_over_glass_is_found_from_rough_metals"]),
+    },
+    Mutant {
+        name: "rough-metals-aim-with-their-colour-twice",
+        file: SHARING,
+        find: "carried = V3::select(at.bsdf.has_one_color(), carried, at.ray.throughput);",
+        replace: "",
+        caught_by: proofs(&["aimed::rough_metals"]),
+    },
+    Mutant {
         name: "own-rays-count-in-full-beside-aimed-ones",
         file: SHARING,
         find: "ray.eta2 = F::select(both_find, ray.eta2 * weight, ray.eta2);",
         replace: "let _ = weight;",
         caught_by: proofs(&["aimed"]),
+    },
+    Mutant {
+        name: "own-rays-see-the-sky-in-full-beside-aimed-ones",
+        file: EMISSION,
+        find: "F::select(own, by_itself / (by_itself + by_aiming), one)",
+        replace: "F::select(own, by_itself / by_itself.max(by_aiming * F::splat(0.0)), one)",
+        caught_by: proofs(&["aimed::windows_under_a_sky"]),
+    },
+    Mutant {
+        name: "nothing-is-aimed-through-windows",
+        file: "crates/kernels/src/engine/guide/sky.rs",
+        find: "(matters * worth(",
+        replace: "(0.0 * matters * worth(",
+        caught_by: proofs(&["aimed::windows_are_found"]),
     },
     // Light paths.
     Mutant {

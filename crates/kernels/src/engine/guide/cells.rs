@@ -30,6 +30,13 @@ const TO_NEXT: f32 = 0.8;
 /// No sphere of a cell has a smaller share of its rays, in shares of an equal part.
 const LEAST_SHARE: f32 = 0.2;
 
+/// Chance that a ray is aimed where there is nothing, or faint light only.
+pub const LEAST_CHANCE: f32 = 0.1;
+/// With s, the strength of light over mirrors and glass over what the lights send to the middle of a scene, the chance
+/// is this times s / (s + 1), at most one: so rays are spent where the noise is. A ray from every vertex was twice as
+/// many in a room of balls, for a fifth less error.
+const STEEPNESS: f32 = 5.0;
+
 /// From so far on in render units what is seen from all of a cell is in one direction: to a ten thousandth of a radian.
 pub const FARTHEST: f32 = 1e5;
 
@@ -92,6 +99,8 @@ pub struct Cells {
     pub rows: SphereRows,
     /// Of each cell the irradiance over what the lights send to the middle of a scene, about.
     pub strength: Vec<f32>,
+    /// Of each cell the chance that a ray is aimed from there.
+    pub chance: Vec<f32>,
 }
 
 /// A cell that is being added: its place along the octree's curve, in cells of its level, and its number.
@@ -165,6 +174,7 @@ impl Cells {
     /// Adds a cell whose rows are there, and tells its number.
     fn add(&mut self, strength: f32) -> u32 {
         self.strength.push(strength);
+        self.chance.push((strength * STEEPNESS / (strength + 1.0)).clamp(LEAST_CHANCE, 1.0));
         self.children.resize(8 * self.strength.len(), 0);
         self.strength.len() as u32 - 1
     }

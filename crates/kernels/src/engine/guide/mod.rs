@@ -19,6 +19,7 @@ pub mod approach;
 pub mod casters;
 pub mod cells;
 pub mod plan;
+pub mod sky;
 
 use cells::{Cells, SphereRows};
 
@@ -26,9 +27,12 @@ use cells::{Cells, SphereRows};
 pub const MOST_CASTERS: usize = 16;
 
 /// What rays are aimed at.
+#[derive(Default)]
 pub struct Guide {
-    /// By place.
-    pub cells: Cells,
+    /// Where lights are found over mirrors, glass and glossy surfaces, by place; where the scene has a way for photons.
+    pub lights: Option<Cells>,
     /// Spheres around the casters, for what no photon has found.
     pub casters: SphereRows,
+    /// Where the sky is seen, where that is worth its while ([`sky`]).
+    pub sky: Option<Cells>,
 }

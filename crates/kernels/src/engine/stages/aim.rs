@@ -3,15 +3,17 @@
 //!
 //! From a rough vertex x one more ray is cast, by a chance that goes with the strength of that light, into a cone
 //! around one of the spheres that the guide has for the place ([`crate::engine::guide`]), or around a caster; what it
-//! meets first must be a mirror, glass or glossy surface, else it counts nothing: lamps are found by light samples, and
-//! what diffuse surfaces send is shared ([`super::share`]). The two ways to find a direction w have the densities p(w),
-//! that of the surface's own samples, and
+//! meets first must be a mirror, glass or glossy surface, or the sky where the guide knows of it, else it counts
+//! nothing: lamps are found by light samples, and what diffuse surfaces send is shared ([`super::share`]). The two ways
+//! to find a direction w have the densities p(w), that of the surface's own samples, and
 //!
-//! a(w) = chance sum_k c_k [w in cone k] / (solid angle of cone k),
+//! a(w) = chance sum_k c_k s_k(w),
+//! s_k(w) = (1 - [`AROUND`]) [w in cone k] / (solid angle of cone k) + AROUND [w around it] / (that around it),
 //!
 //! and each counts by the balance heuristic (Veach 1997, 9.2.2): the aimed ray f cos / (p + a), the own one by p / (p +
-//! a). The chance c_k of a sphere goes with its share of the photons' flux (casters: with their solid angle) and a
-//! bound on the cosine. Spheres that x is in or near to are not aimed at: the own ray meets them anyway.
+//! a). The chance c_k of a sphere goes with its share of the photons' flux (casters: with their solid angle, and none
+//! around them) and a bound on the cosine. Spheres that x is in or near to are not aimed at: the own ray meets them
+//! anyway.
 //!
 //! Roulette knows nothing of it: that the own ray of a later vertex goes on is by a chance that its weight takes out
 //! again, so that both ways sum to one whatever the chance. What a path sees through several sides of glass is aimed
@@ -20,23 +22,26 @@
 
 use super::materials::TWO_PI;
 use super::points::{PairPoints, PixelOf};
-use super::share::{bsdf_of, buried};
-use crate::engine::batch::{BRANCHING, Batch, CAPACITY, LATE_AIMS, RAISED, path};
-use crate::engine::guide::cells::{SPHERES, SphereRows};
+use super::share::{buried, colored_bsdf_of};
+use crate::engine::batch::{BRANCHING, Batch, CAPACITY, LATE_AIMS, Paths, RAISED, path};
+use crate::engine::guide::cells::{Cells, SPHERES, SphereRows};
 use crate::engine::guide::{Guide, MOST_CASTERS};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
 use crate::sampling::sampler::Purpose;
-use crate::scene::NONE;
+use crate::scene::{ConductorTable, NONE};
 
-/// Chance that a ray is aimed where the guide has nothing, or knows of faint light only.
-const LEAST_CHANCE: f32 = 0.1;
-/// With s, the strength of light over mirrors and glass over what the lights send to the middle of a scene, the chance
-/// is this times s / (s + 1), at most one: so rays are spent where the noise is. A ray from every vertex was twice as
-/// many in a room of balls, for a fifth less error.
-const STEEPNESS: f32 = 5.0;
 /// Share of the aimed rays that goes to the casters' own spheres, where the guide knows something.
 const TO_CASTERS: f32 = 0.1;
+/// Share of a cell's cone that goes into one [`WIDER`] times as large around it. Photons are few, and the spheres
+/// around clusters of them leave gaps in the images that they stand for: own rays that met a lamp there counted for
+/// nearly all that they brought, which a whole block shared as a cluster of dots (docs/noise.md).
+const AROUND: f32 = 0.2;
+/// The solid angle around a cone over its own: twice the angle.
+const WIDER: f32 = 4.0;
+/// The chance that a ray is aimed at the sky is this times as much where pixels share what it finds: of 64 it is most
+/// of what they need, and each vertex that is lit is one more to share.
+const OF_SHARED: f32 = 0.1;
 /// Cones wider than this are not aimed at: squared sine of half the angle.
 const WIDEST: f32 = 0.75;
 /// Cones are not narrower than this, by 1 - cos of half the angle: a thousandth of a radian, whose square single
@@ -67,38 +72,76 @@ impl<F: Lanes> Cone<F> {
         Cone { axis, width, highest: F::select(sin2.lt(c(WIDEST)), highest, c(0.0)) }
     }
 
-    /// Whether a direction lies within: 1 - cos as half the squared way between two unit vectors, which keeps its
-    /// digits where it is small.
+    /// Whether a direction lies within, or within so many times its solid angle: 1 - cos as half the squared way
+    /// between two unit vectors, which keeps its digits where it is small.
     #[inline(always)]
-    fn holds(&self, w: V3<F>) -> F::M {
+    fn holds(&self, w: V3<F>, wider: f32) -> F::M {
         let d = w.sub(self.axis);
-        d.dot(d).le(self.width + self.width)
+        d.dot(d).le(self.width * F::splat(2.0 * wider))
+    }
+
+    /// The density of its directions and those around it, times its solid angle. A direction that was drawn within it
+    /// or around it is so whatever rounding says.
+    #[inline(always)]
+    fn spread(&self, w: V3<F>, within: F::M, around: F::M) -> F {
+        let c = F::splat;
+        let inner = F::select(self.holds(w, 1.0) | within, c(1.0 - AROUND), c(0.0));
+        inner + F::select(self.holds(w, WIDER) | around, c(AROUND / WIDER), c(0.0))
     }
 }
 
-/// The spheres that rays from some points may be aimed at, lane by lane: those of the guide's cell and the casters.
+/// Where rays from some points may be aimed, lane by lane: at the spheres of the guide's cell and at the casters, and
+/// at the sky.
 struct Targets<'a, F: Lanes> {
     guide: &'a Guide,
     p: V3<F>,
     n: V3<F>,
-    /// First row of the cell.
-    row: F::U,
-    /// Chance that a ray is aimed.
+    /// Of both.
+    places: [Place<F>; 2],
+}
+
+/// A cell, and the chance that a ray is aimed from there.
+#[derive(Clone, Copy)]
+struct Place<F: Lanes> {
+    cell: F::U,
     chance: F,
 }
 
-impl<'a, F: Lanes> Targets<'a, F> {
+impl<F: Lanes> Place<F> {
     #[inline(always)]
-    fn new(guide: &'a Guide, p: V3<F>, n: V3<F>, mask: F::M) -> Self {
-        let (cell, chance) = cell_and_chance(guide, p, mask);
-        Targets { guide, p, n, row: cell * F::U::splat(SPHERES as u32), chance }
+    fn none() -> Self {
+        Place { cell: F::U::splat(0), chance: F::splat(0.0) }
     }
+}
 
-    /// Sphere k of the cell, and its weight.
+/// The cells of a guide around points, and of its sky. Of both chances not more than one is taken.
+#[inline(always)]
+fn places<F: Lanes>(guide: &Guide, p: V3<F>, mask: F::M, shared: F::M) -> [Place<F>; 2] {
+    let of = |cells: &Cells| {
+        let cell = cells.find(p, mask);
+        Place { cell, chance: F::gather(&cells.chance, cell) }
+    };
+    let one = F::splat(1.0);
+    let less = |sky: Place<F>| {
+        let times = F::select(shared, F::splat(OF_SHARED), one);
+        Place { chance: sky.chance * times, ..sky }
+    };
+    let (lights, sky) = match (&guide.lights, &guide.sky) {
+        (Some(lights), Some(sky)) => (of(lights), less(of(sky))),
+        (Some(lights), None) => return [of(lights), Place::none()],
+        (None, Some(sky)) => return [Place::none(), less(of(sky))],
+        (None, None) => return [Place::none(); 2],
+    };
+    let most = one / (lights.chance + sky.chance).max(one);
+    [lights, sky].map(|Place { cell, chance }| Place { cell, chance: chance * most })
+}
+
+impl<F: Lanes> Targets<'_, F> {
+    /// Cone k of one kind of cell, and its weight.
     #[inline(always)]
-    fn of_cell(&self, k: usize) -> (Cone<F>, F) {
-        let SphereRows { spheres, weight } = &self.guide.cells.rows;
-        let row = self.row + F::U::splat(k as u32);
+    fn of_cell(&self, cells: &Cells, place: &Place<F>, k: usize) -> (Cone<F>, F) {
+        let SphereRows { spheres, weight } = &cells.rows;
+        let row = place.cell * F::U::splat(SPHERES as u32) + F::U::splat(k as u32);
         let [x, y, z, radius2] = F::gather4(spheres, row.shl::<2>());
         let cone = Cone::new(V3(x, y, z), radius2, self.p, self.n);
         (cone, F::gather(weight, row) * cone.highest)
@@ -111,47 +154,84 @@ impl<'a, F: Lanes> Targets<'a, F> {
         let cone = Cone::new(V3(x, y, z), radius2, self.p, self.n);
         (cone, cone.width * cone.highest)
     }
-}
 
-/// Cones and their weights: those of a cell, then those of the casters.
-type Cones<F> = [(Cone<F>, F); SPHERES + MOST_CASTERS];
-
-impl<F: Lanes> Targets<'_, F> {
-    /// All spheres, so many casters among them, and the sums of the weights of both kinds.
+    /// All cones, those of cells first, and the sums of the weights of each [`Kind`].
     #[inline(always)]
-    fn all(&self, casters: usize) -> (Cones<F>, [F; 2]) {
+    fn all(&self, casters: usize) -> (Cones<F>, [F; 3]) {
         let zero = F::splat(0.0);
         let none = Cone { axis: self.n, width: F::splat(1.0), highest: zero };
-        let mut cones = [(none, zero); SPHERES + MOST_CASTERS];
-        let mut sums = [zero; 2];
-        for (k, cone) in cones.iter_mut().enumerate().take(SPHERES + casters) {
-            *cone = if k < SPHERES { self.of_cell(k) } else { self.of_caster(k - SPHERES) };
-            let sum = &mut sums[usize::from(k >= SPHERES)];
-            *sum = *sum + cone.1;
+        let mut cones = [(none, zero); 2 * SPHERES + MOST_CASTERS];
+        let mut sums = [zero; 3];
+        let mut at = 0;
+        for kind in [LIGHTS, SKY] {
+            let Some(cells) = cells_of(self.guide, kind) else { continue };
+            for k in 0..SPHERES {
+                cones[at] = self.of_cell(cells, &self.places[kind], k);
+                sums[kind] = sums[kind] + cones[at].1;
+                at += 1;
+            }
+        }
+        for k in 0..casters {
+            cones[at] = self.of_caster(k);
+            sums[CASTERS] = sums[CASTERS] + cones[at].1;
+            at += 1;
         }
         (cones, sums)
     }
+
+    /// What the weights of each kind are multiplied by: the chances to be aimed at, by the sums of their weights. The
+    /// cell and the casters share theirs: one goes without the other.
+    #[inline(always)]
+    fn scales(&self, sums: [F; 3]) -> [F; 3] {
+        let c = F::splat;
+        let (zero, one) = (c(0.0), c(1.0));
+        let [lights, sky] = self.places;
+        let known = zero.lt(sums[LIGHTS]);
+        let casters = F::select(known, c(TO_CASTERS), one);
+        let casters = F::select(zero.lt(sums[CASTERS]), casters, zero);
+        [
+            over((one - casters) * lights.chance, sums[LIGHTS]),
+            over(sky.chance, sums[SKY]),
+            over(casters * lights.chance, sums[CASTERS]),
+        ]
+    }
 }
 
-/// The guide's cells around points, and the chances that rays are aimed from there.
+/// Kinds of cones: of a cell for lights over mirrors and glass, of one for the sky, of casters.
+const LIGHTS: usize = 0;
+const SKY: usize = 1;
+const CASTERS: usize = 2;
+
+/// Cones and their weights, in the order of their kinds.
+type Cones<F> = [(Cone<F>, F); 2 * SPHERES + MOST_CASTERS];
+
+/// Of a kind of cones, where there are any.
 #[inline(always)]
-fn cell_and_chance<F: Lanes>(guide: &Guide, p: V3<F>, mask: F::M) -> (F::U, F) {
-    let c = F::splat;
-    let cell = guide.cells.find(p, mask);
-    let strength = F::gather(&guide.cells.strength, cell);
-    let chance = (strength * c(STEEPNESS) / (strength + c(1.0))).max(c(LEAST_CHANCE)).min(c(1.0));
-    (cell, chance)
+fn cells_of(guide: &Guide, kind: usize) -> Option<&Cells> {
+    if kind == LIGHTS { guide.lights.as_ref() } else { guide.sky.as_ref() }
 }
 
-/// The shares of cell and casters in the aimed rays, from the sums of their weights: one goes without the other.
-#[inline(always)]
-fn shares<F: Lanes>(of_cell: F, of_casters: F) -> (F, F) {
-    let c = F::splat;
-    let (zero, one) = (c(0.0), c(1.0));
-    let known = zero.lt(of_cell);
-    let casters = F::select(known, c(TO_CASTERS), one);
-    let casters = F::select(zero.lt(of_casters), casters, zero);
-    (F::select(known, one - casters, zero), casters)
+/// Which cones a guide has.
+#[derive(Clone, Copy)]
+struct Kinds {
+    /// The kind of the first ones.
+    first: usize,
+    /// So many are of cells, [`SPHERES`] of a kind; the rest are casters'.
+    of_cells: usize,
+}
+
+impl Kinds {
+    #[inline(always)]
+    fn new(guide: &Guide) -> Self {
+        let count = [LIGHTS, SKY].into_iter().filter(|&kind| cells_of(guide, kind).is_some()).count();
+        Kinds { first: if guide.lights.is_some() { LIGHTS } else { SKY }, of_cells: count * SPHERES }
+    }
+
+    /// That of cone k.
+    #[inline(always)]
+    fn of(&self, k: usize) -> usize {
+        if k >= self.of_cells { CASTERS } else { self.first + k / SPHERES }
+    }
 }
 
 #[inline(always)]
@@ -159,91 +239,156 @@ fn over<F: Lanes>(share: F, sum: F) -> F {
     F::select(F::splat(0.0).lt(sum), share / sum, F::splat(0.0))
 }
 
-/// Density in solid angle with which a ray from a rough vertex at p with shading normal n is aimed along w, for the
-/// lanes of the mask.
+/// Rough vertices from which rays may be aimed, lane by lane.
+#[derive(Clone, Copy)]
+pub struct From<F: Lanes> {
+    /// Where.
+    pub p: V3<F>,
+    /// The shading normal.
+    pub n: V3<F>,
+    /// Lanes whose light pixels share.
+    pub shared: F::M,
+}
+
+/// Lanes of paths whose light pixels share.
 #[inline(always)]
-pub fn density<F: Lanes>(guide: &Guide, p: V3<F>, n: V3<F>, w: V3<F>, mask: F::M) -> F {
+pub fn is_shared<F: Lanes>(slot: F::U) -> F::M {
+    !(slot & F::U::splat(path::SHARED)).eq(F::U::splat(0))
+}
+
+/// Density in solid angle with which a ray is aimed along w, for the lanes of the mask.
+#[inline(always)]
+pub fn density<F: Lanes>(guide: &Guide, from: From<F>, w: V3<F>, mask: F::M) -> F {
+    let From { p, n, shared } = from;
     let zero = F::splat(0.0);
-    let targets = Targets::new(guide, p, n, mask);
-    let (mut sums, mut within) = ([zero; 2], [zero; 2]);
-    for k in 0..SPHERES {
-        let (cone, weight) = targets.of_cell(k);
-        sums[0] = sums[0] + weight;
-        within[0] = within[0] + F::select(cone.holds(w), weight / cone.width, zero);
+    let targets = Targets { guide, p, n, places: places(guide, p, mask, shared) };
+    let (mut sums, mut within) = ([zero; 3], [zero; 3]);
+    let none = F::first(0);
+    for kind in [LIGHTS, SKY] {
+        let Some(cells) = cells_of(guide, kind) else { continue };
+        for k in 0..SPHERES {
+            let (cone, weight) = targets.of_cell(cells, &targets.places[kind], k);
+            sums[kind] = sums[kind] + weight;
+            within[kind] = within[kind] + cone.spread(w, none, none) * weight / cone.width;
+        }
     }
     for k in 0..guide.casters.count() {
         let (cone, weight) = targets.of_caster(k);
-        sums[1] = sums[1] + weight;
-        within[1] = within[1] + F::select(cone.holds(w), weight / cone.width, zero);
+        sums[CASTERS] = sums[CASTERS] + weight;
+        within[CASTERS] = within[CASTERS] + F::select(cone.holds(w, 1.0), weight / cone.width, zero);
     }
-    let (of_cell, of_casters) = shares(sums[0], sums[1]);
-    (within[0] * over(of_cell, sums[0]) + within[1] * over(of_casters, sums[1]))
-        * (targets.chance * F::splat(1.0 / TWO_PI))
+    let scales = targets.scales(sums);
+    let mut density = within[LIGHTS].fma(scales[LIGHTS], within[CASTERS] * scales[CASTERS]);
+    if guide.sky.is_some() {
+        density = within[SKY].fma(scales[SKY], density);
+    }
+    density * F::splat(1.0 / TWO_PI)
 }
 
 /// Leaves those of `batch.aimers` from which rays are aimed this time. `batch.next`, in which nothing is between two
-/// vertices, has their cells in place of primitives, their chances in place of densities, and in place of `eta2` the
-/// numbers that were below them.
+/// vertices, has their cells in place of primitives and instances, their chances in place of densities and weights on
+/// the film, and in place of `eta2` the numbers that were below them.
 #[inline(always)]
-fn leave_by_chance<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
+fn leave_by_chance<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, metals: bool, batch: &mut Batch) {
     let choices = PairPoints::<F>::new(seed, Purpose::Aim(vertex), &batch.items);
     let (aimers, drawn) = (&mut *batch.aimers, &mut *batch.next);
     let mut left = 0;
     for i in (0..aimers.len).step_by(F::N) {
         let valid = F::first(aimers.len - i);
-        let pixel = PixelOf::<F>::new(F::U::load(&aimers.slot[i..]), &batch.pixels);
+        let slot = F::U::load(&aimers.slot[i..]);
+        let pixel = PixelOf::<F>::new(slot, &batch.pixels);
         let (choice, _) = choices.points(&pixel);
-        let (cell, chance) = cell_and_chance(guide, V3::<F>::load(&aimers.start, i), valid);
-        let aims = valid & choice.lt(chance);
-        cell.compress(aims, &mut drawn.from_primitive[left..]);
-        chance.compress(aims, &mut drawn.pdf[left..]);
+        let [lights, sky] = places(guide, V3::<F>::load(&aimers.start, i), valid, is_shared::<F>(slot));
+        let aims = valid & choice.lt(lights.chance + sky.chance);
+        lights.cell.compress(aims, &mut drawn.from_primitive[left..]);
+        lights.chance.compress(aims, &mut drawn.pdf[left..]);
+        if guide.sky.is_some() {
+            sky.cell.compress(aims, &mut drawn.from_instance[left..]);
+            sky.chance.compress(aims, &mut drawn.film[left..]);
+        }
         choice.compress(aims, &mut drawn.eta2[left..]);
         if left < i || aims.count() < F::N {
-            aimers.keep::<F>(i, aims, left);
+            aimers.keep::<F>(i, aims, left, metals);
         }
         left += aims.count();
     }
     aimers.len = left;
 }
 
-/// The last cone with any weight that begins at or below the threshold, and which it is; of a cell's weights and of the
-/// casters' each counts by its scale.
+/// Those of [`leave_by_chance`].
 #[inline(always)]
-fn choose<F: Lanes>(cones: &[(Cone<F>, F)], scales: [F; 2], threshold: F, n: V3<F>) -> (Cone<F>, F::U) {
-    let zero = F::splat(0.0);
-    let mut below = zero;
-    let mut taken = Cone { axis: n, width: zero, highest: zero };
-    let mut which = F::U::splat(0);
-    for (k, &(cone, weight)) in cones.iter().enumerate() {
-        let takes = zero.lt(weight) & below.le(threshold);
-        taken.axis = V3::select(takes, cone.axis, taken.axis);
-        taken.width = F::select(takes, cone.width, taken.width);
-        which = F::U::select(takes, F::U::splat(k as u32), which);
-        below = below + weight * scales[usize::from(k >= SPHERES)];
+fn drawn_places<F: Lanes>(guide: &Guide, drawn: &Paths, i: usize) -> [Place<F>; 2] {
+    let lights = Place { cell: F::U::load(&drawn.from_primitive[i..]), chance: F::load(&drawn.pdf[i..]) };
+    if guide.sky.is_none() {
+        return [lights, Place::none()];
     }
-    (taken, which)
+    [lights, Place { cell: F::U::load(&drawn.from_instance[i..]), chance: F::load(&drawn.film[i..]) }]
 }
 
-/// The sum of the weights over the widths of the cones that hold a direction: the one that was taken holds it whatever
-/// rounding says.
+/// What a ray is aimed into, lane by lane.
+struct Taken<F: Lanes> {
+    axis: V3<F>,
+    /// 1 - cos of half the angle.
+    width: F,
+    /// Which cone it is.
+    which: F::U,
+    /// Where it is the one around that.
+    around: F::M,
+    /// Lanes that have one.
+    any: F::M,
+}
+
+/// The last cone with any weight that begins at or below the choice, or the one around it where less than its share of
+/// that is left; each weight counts by its kind's scale, and where the choice is not below their sum there is none.
 #[inline(always)]
-fn within<F: Lanes>(cones: &[(Cone<F>, F)], scales: [F; 2], taken: F::U, wi: V3<F>) -> F {
+fn choose<F: Lanes>(cones: &[(Cone<F>, F)], kinds: Kinds, scales: [F; 3], choice: F, n: V3<F>) -> Taken<F> {
+    let zero = F::splat(0.0);
+    let mut below = zero;
+    let none = F::first(0);
+    let mut taken = Taken { axis: n, width: zero, which: F::U::splat(0), around: none, any: none };
+    for (k, &(cone, weight)) in cones.iter().enumerate() {
+        let share = weight * scales[kinds.of(k)];
+        let takes = zero.lt(share) & below.le(choice);
+        taken.axis = V3::select(takes, cone.axis, taken.axis);
+        taken.width = F::select(takes, cone.width, taken.width);
+        taken.which = F::U::select(takes, F::U::splat(k as u32), taken.which);
+        taken.around = taken.around & !takes;
+        if k < kinds.of_cells {
+            taken.around = taken.around | takes & (choice - below).lt(share * F::splat(AROUND));
+        }
+        below = below + share;
+    }
+    let wider = (taken.width * F::splat(WIDER)).min(F::splat(2.0));
+    taken.width = F::select(taken.around, wider, taken.width);
+    taken.any = choice.lt(below);
+    taken
+}
+
+/// The sum of the weights times the densities of the cones that hold a direction, or that hold it around them: what was
+/// taken holds it.
+#[inline(always)]
+fn within<F: Lanes>(cones: &[(Cone<F>, F)], kinds: Kinds, scales: [F; 3], taken: &Taken<F>, wi: V3<F>) -> F {
     let zero = F::splat(0.0);
     let mut sum = zero;
     for (k, &(cone, weight)) in cones.iter().enumerate() {
-        let holds = cone.holds(wi) | taken.eq(F::U::splat(k as u32));
-        sum = sum + F::select(holds, weight * scales[usize::from(k >= SPHERES)] / cone.width, zero);
+        let own = taken.which.eq(F::U::splat(k as u32));
+        let holds = if k < kinds.of_cells {
+            cone.spread(wi, own & !taken.around, own)
+        } else {
+            F::select(cone.holds(wi, 1.0) | own, F::splat(1.0), zero)
+        };
+        sum = sum + holds * weight * scales[kinds.of(k)] / cone.width;
     }
     sum
 }
 
-/// Adds rays aimed from `batch.aimers` to `batch.paths`.
+/// Adds rays aimed from `batch.aimers` to `batch.paths`; `metals`: the table of metals, where there may be some.
 #[inline(always)]
-pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
+pub fn aim<F: Lanes>(metals: Option<&ConductorTable>, guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
     if batch.aimers.len > 0 {
-        leave_by_chance::<F>(guide, seed, vertex, batch);
+        leave_by_chance::<F>(guide, seed, vertex, metals.is_some(), batch);
     }
     if batch.aimers.len == 0 {
         return;
@@ -253,35 +398,33 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
     let (aimers, paths, drawn) = (&*batch.aimers, &mut *batch.paths, &*batch.next);
     let before = paths.len;
     let casters = guide.casters.count().min(MOST_CASTERS);
+    let kinds = Kinds::new(guide);
     for i in (0..aimers.len).step_by(F::N) {
         let slot = F::U::load(&aimers.slot[i..]);
         let pixel = PixelOf::<F>::new(slot, &batch.pixels);
         let mut aimed = F::first(aimers.len - i);
         let p = V3::<F>::load(&aimers.start, i);
         let n = V3::<F>::load(&aimers.normal, i);
-        let row = F::U::load(&drawn.from_primitive[i..]) * F::U::splat(SPHERES as u32);
-        let (choice, chance) = (F::load(&drawn.eta2[i..]), F::load(&drawn.pdf[i..]));
-        let targets = Targets { guide, p, n, row, chance };
+        let targets = Targets { guide, p, n, places: drawn_places(guide, drawn, i) };
         let (cones, sums) = targets.all(casters);
-        let cones = &cones[..SPHERES + casters];
-        let (of_cell, of_casters) = shares(sums[0], sums[1]);
-        let scales = [over(of_cell, sums[0]), over(of_casters, sums[1])];
-        let (taken, which) = choose(cones, scales, choice / targets.chance * (of_cell + of_casters), n);
+        let cones = &cones[..kinds.of_cells + casters];
+        let scales = targets.scales(sums);
+        let taken = choose(cones, kinds, scales, F::load(&drawn.eta2[i..]), n);
         let (u, v) = directions.points(&pixel);
         let wi = taken.axis.to_world(crate::sampling::warp::cone(u, v, taken.width));
         let cos = n.dot(wi);
-        aimed = aimed & zero.lt(sums[0] + sums[1]) & zero.lt(cos);
+        aimed = aimed & taken.any & zero.lt(cos);
         if !aimed.any() {
             continue;
         }
-        let density = within(cones, scales, which, wi) * targets.chance * c(1.0 / TWO_PI);
-        let bsdf = bsdf_of::<F>(aimers, i, aimed);
+        let density = within(cones, kinds, scales, &taken, wi) * c(1.0 / TWO_PI);
+        let bsdf = colored_bsdf_of(metals, aimers, i, aimed);
         let (f, by_itself) = bsdf.evaluate(n, V3::load(&aimers.wo, i), wi, cos);
         // What the own ray carried along this direction, and the weight apart, which roulette must not see: both ways
         // are one sum.
         aimed = aimed & zero.lt(by_itself) & !buried(aimers, i, wi);
         let by_itself = F::select(aimed, by_itself, one);
-        let throughput = V3::<F>::load(&aimers.weight, i).scale(f.0 * cos / by_itself);
+        let throughput = V3::<F>::load(&aimers.weight, i).mul(f).scale(cos / by_itself);
         let weight = by_itself / (by_itself + density);
         aimed = aimed & zero.lt(throughput.max_component());
         let kind = F::U::load(&aimers.kind[i..]);
@@ -289,7 +432,7 @@ pub fn aim<F: Lanes>(guide: &Guide, seed: u32, vertex: u32, batch: &mut Batch) {
         let sinks = raised & V3::<F>::load(&aimers.geometric, i).dot(wi).le(zero);
         let primitive = F::U::select(sinks, F::U::splat(NONE), F::U::load(&aimers.primitive[i..]));
         let sum = slot & F::U::splat(path::SUM);
-        let shared = !(slot & F::U::splat(path::SHARED)).eq(F::U::splat(0));
+        let shared = is_shared::<F>(slot);
         let late = if vertex < BRANCHING { 0 } else { LATE_AIMS * path::LATE };
         let state =
             F::U::select(shared, sum, sum | F::U::splat(path::OWN)) | F::U::splat(path::AIMED | path::SPECULAR | late);

@@ -228,7 +228,7 @@ fn to_camera<F: Lanes>(
 ) {
     let (c, zero) = (F::splat, F::splat(0.0));
     let Arrival { s, bsdf, back, .. } = *at;
-    let rough = bsdf.packs() & !s.smooth;
+    let rough = bsdf.has_one_color() & !s.smooth;
     if !rough.any() {
         return;
     }
@@ -249,7 +249,7 @@ fn to_camera<F: Lanes>(
         return;
     }
     let (f, own) = bsdf.evaluate(s.ns, wo, back, cos_y);
-    let aimed = aim::density(pass.guide, s.start, s.ns, back, falls);
+    let aimed = aim::density(pass.guide, aim::From { p: s.start, n: s.ns, shared: F::first(0) }, back, falls);
     let seen = view.area(place.distance, place.cos, cos_eye) * place.measure;
     let brings = f.mul(at.carried).scale(cos_y * at.eta2);
     let falls = falls & zero.lt(brings.max_component());

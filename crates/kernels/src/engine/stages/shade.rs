@@ -192,7 +192,7 @@ impl<'a, F: Lanes> Stage<'a, F> {
         at.film = if self.vertex == 0 {
             let view = View::new(&self.scene.camera, self.scene.size);
             let film = film * view.area_of(at.ray.direction, at.ray.distance(hits), &at.s);
-            F::select(at.bsdf.packs() & !at.s.smooth, film, zero)
+            F::select(at.bsdf.has_one_color() & !at.s.smooth, film, zero)
         } else {
             F::select(at.bsdf.rough(), zero, film)
         };

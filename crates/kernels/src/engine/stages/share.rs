@@ -28,7 +28,7 @@ use crate::bvh::SecondBoxes;
 use crate::engine::batch::{Batch, Columns, Group, Members, PATHS, RAISED, Shadows, Suffixes, path};
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
-use crate::scene::{NONE, Scene};
+use crate::scene::{ConductorTable, NONE, Scene};
 
 /// Where more segments to a suffix than this have to be traced through the tree, it is shared by fewer members.
 const MOST_TRACED: u32 = 32;
@@ -70,6 +70,19 @@ pub fn bsdf_of<F: Lanes>(members: &Members, i: usize, lanes: F::M) -> Bsdf<'stat
     let [first, second] = &members.numbers;
     let numbers = [F::load(&first[i..]), F::load(&second[i..])];
     Bsdf::unpack(Packed { kind: F::U::load(&members.kind[i..]), numbers }, lanes)
+}
+
+/// The same of those that rays are aimed from: metals have their colours.
+#[inline(always)]
+pub fn colored_bsdf_of<'t, F: Lanes>(
+    metals: Option<&'t ConductorTable>,
+    aimers: &Members,
+    i: usize,
+    lanes: F::M,
+) -> Bsdf<'t, F> {
+    let bsdf = bsdf_of(aimers, i, lanes);
+    let Some(table) = metals else { return bsdf };
+    bsdf.metals(table, F::U::load(&aimers.kind[i..]), [0, 1].map(|of| V3::load(&aimers.colors[of], i)))
 }
 
 /// Of members i .. i + N those whose surface buries this direction: see [`super::surface::Surface::buries`].

@@ -6,6 +6,7 @@
 
 use super::Trial;
 use super::photons::photons;
+use super::sky;
 use crate::engine::technique::{Engine, Technique, Vertex};
 use std::any::Any;
 use std::ops::Range;
@@ -13,7 +14,7 @@ use std::sync::Arc;
 use std::time::Instant;
 use tracer_kernels::engine::batch::Batch;
 use tracer_kernels::engine::guide::casters::Casters;
-use tracer_kernels::engine::guide::cells::{Cells, SphereRows};
+use tracer_kernels::engine::guide::cells::Cells;
 use tracer_kernels::engine::guide::plan::Plan;
 use tracer_kernels::engine::guide::{Guide, MOST_CASTERS};
 use tracer_kernels::engine::pass::Pass;
@@ -32,7 +33,10 @@ const MOST_MORE: u32 = 8;
 
 /// The guides of a rendering, one at a time.
 struct Guides {
-    plan: Arc<Plan>,
+    /// Where there is a way for photons.
+    plan: Option<Arc<Plan>>,
+    /// The sky is looked for, too.
+    sky: bool,
     seed: u32,
     /// Photons of the first guide.
     first: u32,
@@ -72,22 +76,47 @@ pub fn made_at(scene: &Scene, sample: u32) -> u32 {
     first_of(stage_with(first_photons(scene), sample))
 }
 
-/// Guides, where photons are wanted and have a way to go.
+/// Guides, where they are wanted, and photons have a way to go or the sky is seen through openings.
 pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
-    let plan = trial.plan.clone()?;
-    Some(Box::new(Guides::new(trial.engine.scene, plan, trial.pass.seed)))
+    let sky = trial.wants_guides && sky::is_worth(trial);
+    if trial.plan.is_none() && !sky {
+        return None;
+    }
+    Some(Box::new(Guides::new(trial.engine.scene, trial.plan.clone(), sky, trial.pass.seed)))
 }
 
 impl Guides {
     /// There is no guide at hand before [`Technique::before_pass`].
-    fn new(scene: &Scene, plan: Arc<Plan>, seed: u32) -> Self {
-        let mut casters = SphereRows::default();
-        for caster in Casters::new(scene, MOST_CASTERS).list.iter().take(MOST_CASTERS) {
-            casters.push(caster.center.as_vec3().to_array(), caster.radius as f32, 1.0);
+    fn new(scene: &Scene, plan: Option<Arc<Plan>>, sky: bool, seed: u32) -> Self {
+        let mut guide = Guide::default();
+        if plan.is_some() {
+            for caster in Casters::new(scene, MOST_CASTERS).list.iter().take(MOST_CASTERS) {
+                guide.casters.push(caster.center.as_vec3().to_array(), caster.radius as f32, 1.0);
+            }
         }
         let first = first_photons(scene);
-        let guide = Guide { cells: Cells::default(), casters };
-        Guides { plan, seed, first, more: None, stage: u32::MAX, guide, is_of_stage: false }
+        Guides { plan, sky, seed, first, more: None, stage: u32::MAX, guide, is_of_stage: false }
+    }
+
+    /// Cells of photons.
+    fn of_photons(&mut self, engine: Engine<'_>, plan: &Plan, stage: u32, pool: &Pool) -> Cells {
+        let more = *self.more.get_or_insert_with(|| {
+            let seed = hash3(self.seed, 0, 0x0007_21a1) as u32;
+            let met = photons(engine, plan, seed, TRIAL, pool).met;
+            (TRIAL / met.max(1)).clamp(1, MOST_MORE)
+        });
+        let count = plan.worth((self.first << stage.saturating_sub(1)).min(MOST_PHOTONS) * more);
+        // Choices of its own for each guide.
+        let seed = hash3(self.seed, stage, 0x0007_21a1) as u32;
+        let photons = photons(engine, plan, seed, count, pool).stored;
+        pool.once(|batch| {
+            batch.watch.resume();
+            let start = Instant::now();
+            let cells = Cells::new(seed, &photons, plan.sent / std::f32::consts::PI * count as f32);
+            batch.watch.lap(Stage::Photons);
+            batch.watch.costs.photons_since(start);
+            cells
+        })
     }
 
     /// The guide of a sample index.
@@ -108,23 +137,16 @@ impl Technique for Guides {
         if stage == self.stage {
             return;
         }
-        let more = *self.more.get_or_insert_with(|| {
-            let seed = hash3(self.seed, 0, 0x0007_21a1) as u32;
-            let met = photons(engine, &self.plan, seed, TRIAL, pool).met;
-            (TRIAL / met.max(1)).clamp(1, MOST_MORE)
-        });
-        let count = self.plan.worth((self.first << stage.saturating_sub(1)).min(MOST_PHOTONS) * more);
-        // Choices of its own for each guide.
-        let seed = hash3(self.seed, stage, 0x0007_21a1) as u32;
-        let photons = photons(engine, &self.plan, seed, count, pool).stored;
-        self.guide.cells = pool.once(|batch| {
-            batch.watch.resume();
-            let start = Instant::now();
-            let cells = Cells::new(seed, &photons, self.plan.sent / std::f32::consts::PI * count as f32);
-            batch.watch.lap(Stage::Photons);
-            batch.watch.costs.photons_since(start);
-            cells
-        });
+        if let Some(plan) = self.plan.clone() {
+            self.guide.lights = Some(self.of_photons(engine, &plan, stage, pool));
+        }
+        if self.sky {
+            let paths = (self.first << stage.saturating_sub(1)).min(MOST_PHOTONS) / 4;
+            let seed = hash3(self.seed, stage, 0x0007_21a2) as u32;
+            self.guide.sky = None;
+            let lights = self.guide.lights.is_some().then_some(&self.guide);
+            self.guide.sky = Some(sky::cells(engine, seed, paths, lights, pool));
+        }
         (self.stage, self.is_of_stage) = (stage, samples.start == first_of(stage));
     }
 
@@ -132,12 +154,13 @@ impl Technique for Guides {
     /// at the first index of its stage (there were no ways for photons then) is not handed on, so that it does not
     /// matter at which index a rendering begins.
     fn hand_on(&mut self) -> Option<Box<dyn Any + Send>> {
-        self.is_of_stage.then(|| Box::new((self.stage, std::mem::take(&mut self.guide.cells))) as Box<dyn Any + Send>)
+        let Guide { lights, sky, .. } = &mut self.guide;
+        self.is_of_stage.then(|| Box::new((self.stage, [lights.take(), sky.take()])) as Box<dyn Any + Send>)
     }
 
     fn take_over(&mut self, handed: Box<dyn Any + Send>) {
-        if let Ok(handed) = handed.downcast::<(u32, Cells)>() {
-            (self.stage, self.guide.cells) = *handed;
+        if let Ok(handed) = handed.downcast::<(u32, [Option<Cells>; 2])>() {
+            (self.stage, [self.guide.lights, self.guide.sky]) = *handed;
             self.is_of_stage = true;
         }
     }
@@ -149,7 +172,7 @@ impl Technique for Guides {
     /// Aims rays.
     fn after_vertex(&self, engine: Engine<'_>, pass: Pass<'_>, vertex: Vertex, batch: &mut Batch) {
         let start = Instant::now();
-        engine.kernels.aim(&self.guide, pass.seed, vertex.number, batch);
+        engine.kernels.aim(engine.scene, &self.guide, pass.seed, vertex.number, batch);
         batch.watch.costs.caustics += start.elapsed().as_secs_f64();
         batch.watch.lap(Stage::Aim);
     }

@@ -5,6 +5,7 @@ mod guides;
 mod light_paths;
 mod photons;
 mod reuse;
+mod sky;
 
 /// The sample index at which is made what techniques hand on to this one, where the scene moves.
 pub use guides::made_at;
@@ -28,6 +29,8 @@ pub struct Trial<'a> {
     /// Plain paths.
     pub pass: Pass<'a>,
     pub pool: &'a Pool,
+    /// Rays are aimed where a guide says.
+    pub wants_guides: bool,
     /// From which lights photons go to which casters; where they are wanted and have a way to go.
     pub plan: Option<Arc<Plan>>,
 }
@@ -45,7 +48,7 @@ pub fn plan(mut trial: Trial<'_>) -> Vec<Box<dyn Technique>> {
     if scene.integrator != Integrator::Paths {
         return Vec::new();
     }
-    let wants_photons = trial.options.caustics.unwrap_or(scene.caustics) && trial.has_samples;
-    trial.plan = if wants_photons { Plan::new(scene, trial.pass.seed).map(Arc::new) } else { None };
+    trial.wants_guides = trial.options.caustics.unwrap_or(scene.caustics) && trial.has_samples;
+    trial.plan = if trial.wants_guides { Plan::new(scene, trial.pass.seed).map(Arc::new) } else { None };
     ALL.iter().filter_map(|plan| plan(&trial)).collect()
 }

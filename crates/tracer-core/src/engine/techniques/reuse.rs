@@ -17,7 +17,7 @@ use tracer_kernels::scene::Sharing;
 /// a window, in none where it is [`OUTDOORS`] or less, and in a part of the blocks between, so that pictures of a
 /// sequence, or of other seeds, do not differ in kind. What a ray sees where it leaves the scene is its own pixel's;
 /// outdoors to share never paid (docs/noise.md).
-const INDOORS: f32 = 0.9;
+const INDOORS: f32 = 0.75;
 const OUTDOORS: f32 = 0.6;
 
 /// Which blocks share.

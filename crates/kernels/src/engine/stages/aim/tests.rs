@@ -1,5 +1,5 @@
 use super::*;
-use crate::engine::guide::cells::{Cells, Photon};
+use crate::engine::guide::cells::{Cells, LEAST_CHANCE, Photon};
 use crate::lanes::ArrayF;
 use crate::sampling::blocks::{Block, ITEM_PIXELS, Item};
 
@@ -31,14 +31,16 @@ fn guide(flux: f32) -> Guide {
             Photon { point: [0.0; 3], from, origin: from, flux }
         })
         .collect();
-    Guide { cells: Cells::new(3, if flux > 0.0 { &photons } else { &[] }, 1.0), casters: casters() }
+    let cells = Cells::new(3, if flux > 0.0 { &photons } else { &[] }, 1.0);
+    Guide { lights: Some(cells), sky: None, casters: casters() }
 }
 
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
 fn density_of(guide: &Guide, w: [f32; 3]) -> f64 {
     let mut out = [0.0];
-    density(guide, V3::<One>::zero(), V3::splat(UP), V3::splat(w), <One as Lanes>::first(1)).store(&mut out);
+    let from = From { p: V3::<One>::zero(), n: V3::splat(UP), shared: <One as Lanes>::first(0) };
+    density(guide, from, V3::splat(w), <One as Lanes>::first(1)).store(&mut out);
     f64::from(out[0])
 }
 
@@ -91,7 +93,7 @@ fn directions_have_the_density_that_is_reckoned_with() {
                 batch.aimers.kind[k] = 0;
                 batch.aimers.slot[k] = k as u32;
             }
-            aim::<One>(&guide, 5, 0, &mut batch);
+            aim::<One>(None, &guide, 5, 0, &mut batch);
             members += ITEM_PIXELS as f64;
             for i in 0..batch.paths.len {
                 let w = batch.paths.direction.each_ref().map(|column| column[i]);
@@ -113,6 +115,24 @@ fn directions_have_the_density_that_is_reckoned_with() {
         let allowed = 4.0 * variance.sqrt() + rounding;
         assert!((mean - expected).abs() < allowed, "flux {flux}: {mean} {expected} {allowed}");
     }
+}
+
+/// Photons tell of light from two places, boxes of 0.15 along each side. There are directions of these that no cone
+/// holds, but hardly one that none is around.
+#[test]
+fn no_holes_in_images() {
+    let guide = Guide { casters: SphereRows::default(), ..guide(1e6) };
+    let (mut around, mut bare) = (0, 0);
+    for k in 0..20_000u32 {
+        let at = |c: u32| (crate::sampling::sampler::hash3(8, k, c) >> 40) as f32 / (1u32 << 24) as f32 - 0.5;
+        let middle = if k % 2 == 0 { [-0.5, 0.6, 0.1] } else { [0.6, 0.5, 0.4] };
+        let to: [f32; 3] = std::array::from_fn(|axis| middle[axis] + 0.15 * at(axis as u32));
+        let length = (to[0] * to[0] + to[1] * to[1] + to[2] * to[2]).sqrt();
+        let density = density_of(&guide, to.map(|x| x / length));
+        bare += u32::from(density == 0.0);
+        around += u32::from(density > 0.0 && density < 0.7);
+    }
+    assert!(bare < 10 && around > 50, "{around} have rays around cones only, {bare} none");
 }
 
 /// Most rays go where the photons came from.

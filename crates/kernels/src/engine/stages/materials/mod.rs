@@ -84,8 +84,12 @@ pub mod packed {
     pub const GLOSSY: u32 = 1;
     /// Blinn-Phong, energy-conserving.
     pub const CONSERVING: u32 = 2;
+    /// A metal.
+    pub const METAL: u32 = 4;
+    /// A metal with a tint from a texture.
+    pub const TINTED: u32 = 8;
     /// All bits.
-    pub const ALL: u32 = GLOSSY | CONSERVING;
+    pub const ALL: u32 = GLOSSY | CONSERVING | METAL | TINTED;
 }
 
 impl<'t, F: Lanes> Bsdf<'t, F> {
@@ -237,10 +241,10 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         Conductor::new(table, place.to_int(), self.parameter, self.color, self.tint)
     }
 
-    /// Rough lanes whose f is their colour times a number: only those columns hold ([`Bsdf::pack`]). Metals' is another
-    /// colour at every angle; they share and aim nothing, and what light paths bring to them is left to paths.
+    /// Rough lanes whose f is their colour times a number. Metals' is another colour at every angle; they share
+    /// nothing, and what light paths bring to them is left to paths.
     #[inline(always)]
-    pub fn packs(&self) -> F::M {
+    pub fn has_one_color(&self) -> F::M {
         self.diffuse | self.blinn_phong
     }
 
@@ -368,12 +372,23 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
         (V3::select(metal, of_metal, wi), V3::select(metal, of_lobe, weight))
     }
 
-    /// The lanes of [`Bsdf::packs`] as columns hold them.
+    /// The rough lanes as columns hold them; of metals [`Bsdf::colors`] belong to it.
     #[inline(always)]
     pub fn pack(&self) -> Packed<F> {
         let bits = F::U::splat;
         let glossy = F::U::select(self.conserving, bits(packed::CONSERVING), bits(packed::GLOSSY));
-        Packed { kind: F::U::select(self.blinn_phong, glossy, bits(0)), numbers: [self.parameter, self.share] }
+        let mut kind = F::U::select(self.blinn_phong, glossy, bits(0));
+        if self.conductors.is_some() {
+            let metal = F::U::select(self.tint.lanes, bits(packed::TINTED), bits(packed::METAL));
+            kind = F::U::select(self.glossy & self.metal, metal, kind);
+        }
+        Packed { kind, numbers: [self.parameter, self.share] }
+    }
+
+    /// The colour and the tint of metals.
+    #[inline(always)]
+    pub fn colors(&self) -> [V3<F>; 2] {
+        [self.color, self.tint.color]
     }
 
     /// Which of these kinds are glossy.
@@ -402,6 +417,22 @@ impl<'t, F: Lanes> Bsdf<'t, F> {
             conserving: glossy & kind.eq(F::U::splat(packed::CONSERVING)),
             metal: none,
             conductors: None,
+        }
+    }
+
+    /// What was unpacked, with the table of metals and their colours ([`Bsdf::colors`]), by the kinds that were packed.
+    #[inline(always)]
+    pub fn metals<'a>(self, table: &'a ConductorTable, kind: F::U, colors: [V3<F>; 2]) -> Bsdf<'a, F> {
+        let kind = kind & F::U::splat(packed::ALL);
+        let tinted = self.glossy & kind.eq(F::U::splat(packed::TINTED));
+        let metal = tinted | self.glossy & kind.eq(F::U::splat(packed::METAL));
+        Bsdf {
+            color: V3::select(metal, colors[0], self.color),
+            blinn_phong: self.blinn_phong & !metal,
+            tint: Tint { color: colors[1], lanes: tinted },
+            metal,
+            conductors: Some(table),
+            ..self
         }
     }
 }

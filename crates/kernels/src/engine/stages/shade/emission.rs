@@ -4,6 +4,8 @@ use super::Stage;
 use super::mis::power_heuristic;
 use super::vertex::{Ray, has};
 use crate::engine::batch::{Columns, Hits, ITEMS, Paths, path};
+use crate::engine::guide::Guide;
+use crate::engine::stages::aim;
 use crate::engine::stages::light_paths::density_ratio;
 use crate::engine::stages::lights::{self, LightHit, Receiver};
 use crate::engine::stages::surface::Surface;
@@ -57,7 +59,13 @@ impl<F: Lanes> Stage<'_, F> {
     /// Light from beyond all surfaces, for rays that hit nothing.
     #[inline(always)]
     pub fn beyond(&self, ray: &Ray<F>, aimed: F::M, paths: &Paths, shown: F) -> Seen<F> {
-        let lanes = if self.open { ray.valid & !ray.hit & !aimed } else { F::M::from_bits(0) };
+        let mut lanes = if self.open { ray.valid & !ray.hit } else { F::M::from_bits(0) };
+        let sky = self.pass.guide.filter(|guide| guide.sky.is_some());
+        let mut shown = shown;
+        match sky {
+            Some(guide) if self.vertex > 0 => shown = shown * self.weight_of_own(guide, ray, paths, lanes),
+            _ => lanes = lanes & !aimed,
+        }
         let mut light = ray.throughput.scale(shown).mul(V3::<F>::splat(self.scene.background));
         let lights = &self.scene.tables.lights;
         if let Some(environment) = &lights.environment
@@ -70,6 +78,22 @@ impl<F: Lanes> Stage<'_, F> {
             light = ray.throughput.mul(radiance).scale(shown * weight);
         }
         Seen { light, lanes }
+    }
+
+    /// What rays count that see the sky, which those that are aimed from the same surface may see, too: those count so
+    /// already.
+    #[inline(always)]
+    fn weight_of_own(&self, guide: &Guide, ray: &Ray<F>, paths: &Paths, lanes: F::M) -> F {
+        let one = F::splat(1.0);
+        let own = lanes & has(ray.slot, path::AIMS);
+        if !own.any() {
+            return one;
+        }
+        let by_itself = F::load(&paths.pdf[ray.first..]);
+        let normal = V3::<F>::load(&paths.normal, ray.first);
+        let from = aim::From { p: ray.origin, n: normal, shared: aim::is_shared::<F>(ray.slot) };
+        let by_aiming = aim::density(guide, from, ray.direction, own);
+        F::select(own, by_itself / (by_itself + by_aiming), one)
     }
 
     /// Light of the lights that the rays of these lanes hit, beside what is seen already. Light is added path by path,

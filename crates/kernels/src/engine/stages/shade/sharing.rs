@@ -22,7 +22,8 @@ impl<F: Lanes> Stage<'_, F> {
         if both_find.any() {
             let by_itself = F::load(&paths.pdf[ray.first..]);
             let normal = V3::<F>::load(&paths.normal, ray.first);
-            let by_aiming = aim::density(guide, ray.origin, normal, ray.direction, both_find);
+            let from = aim::From { p: ray.origin, n: normal, shared: aim::is_shared::<F>(ray.slot) };
+            let by_aiming = aim::density(guide, from, ray.direction, both_find);
             let weight = by_itself / (by_itself + by_aiming);
             // Not in the throughput: roulette would undo it.
             ray.eta2 = F::select(both_find, ray.eta2 * weight, ray.eta2);
@@ -60,7 +61,7 @@ impl<F: Lanes> Stage<'_, F> {
         }
         let fresh = (at.ray.slot & F::U::splat(!path::SLOT)).eq(F::U::splat(0));
         let shares = !F::U::gather(item_shares, at.ray.item()).eq(F::U::splat(0));
-        at.surfaces & at.bsdf.packs() & fresh & shares & F::splat(0.0).lt(at.colored().max_component())
+        at.surfaces & at.bsdf.has_one_color() & fresh & shares & F::splat(0.0).lt(at.colored().max_component())
     }
 
     /// Adds the lanes that share to the members, with the chance that their own paths go on, and says of all paths
@@ -83,8 +84,12 @@ impl<F: Lanes> Stage<'_, F> {
         if self.pass.guide.is_none() || self.vertex >= self.scene.max_bounces {
             return;
         }
-        let colored = at.colored();
-        let mut aims = at.surfaces & at.bsdf.packs() & F::splat(0.0).lt(colored.max_component());
+        let mut carried = at.colored();
+        let mut aims = at.surfaces & at.bsdf.rough() & F::splat(0.0).lt(carried.max_component());
+        let metals = self.scene.tables.materials.conductors.is_some();
+        if metals {
+            carried = V3::select(at.bsdf.has_one_color(), carried, at.ray.throughput);
+        }
         if self.vertex >= BRANCHING {
             let late = F::U::splat(path::LATE);
             let slot = at.ray.slot;
@@ -92,7 +97,12 @@ impl<F: Lanes> Stage<'_, F> {
             at.ray.slot = F::U::select(aims, slot + late, slot);
         }
         at.film.compress(aims, &mut aimers.film[aimers.len..]);
-        add_members(aimers, at, colored, at.ray.eta2, aims);
+        if metals {
+            let k = aimers.len;
+            let colors = at.bsdf.colors();
+            (0..2).for_each(|of| colors[of].compress(aims, &mut aimers.colors[of], k));
+        }
+        add_members(aimers, at, carried, at.ray.eta2, aims);
         at.ray.slot = F::U::select(aims, at.ray.slot | F::U::splat(path::AIMS), at.ray.slot);
     }
 }
