@@ -338,22 +338,21 @@ struct Taken<F: Lanes> {
     any: F::M,
 }
 
-/// The last cone with any weight that begins at or below the choice, or the one around it where less than its share of
-/// that is left; each weight counts by its kind's scale, and where the choice is not below their sum there is none.
+/// The last cone with any share that begins at or below the choice, or the one around it where less than its part of
+/// the share is left; where the choice is not below the shares' sum there is none. Of the cones the first are cells'.
 #[inline(always)]
-fn choose<F: Lanes>(cones: &[(Cone<F>, F)], kinds: Kinds, scales: [F; 3], choice: F, n: V3<F>) -> Taken<F> {
+fn choose<F: Lanes>(cones: &[(Cone<F>, F)], of_cells: usize, choice: F, n: V3<F>) -> Taken<F> {
     let zero = F::splat(0.0);
     let mut below = zero;
     let none = F::first(0);
     let mut taken = Taken { axis: n, width: zero, which: F::U::splat(0), around: none, any: none };
-    for (k, &(cone, weight)) in cones.iter().enumerate() {
-        let share = weight * scales[kinds.of(k)];
+    for (k, &(cone, share)) in cones.iter().enumerate() {
         let takes = zero.lt(share) & below.le(choice);
         taken.axis = V3::select(takes, cone.axis, taken.axis);
         taken.width = F::select(takes, cone.width, taken.width);
         taken.which = F::U::select(takes, F::U::splat(k as u32), taken.which);
         taken.around = taken.around & !takes;
-        if k < kinds.of_cells {
+        if k < of_cells {
             taken.around = taken.around | takes & (choice - below).lt(share * F::splat(AROUND));
         }
         below = below + share;
@@ -364,20 +363,20 @@ fn choose<F: Lanes>(cones: &[(Cone<F>, F)], kinds: Kinds, scales: [F; 3], choice
     taken
 }
 
-/// The sum of the weights times the densities of the cones that hold a direction, or that hold it around them: what was
+/// The sum of the shares times the densities of the cones that hold a direction, or that hold it around them: what was
 /// taken holds it.
 #[inline(always)]
-fn within<F: Lanes>(cones: &[(Cone<F>, F)], kinds: Kinds, scales: [F; 3], taken: &Taken<F>, wi: V3<F>) -> F {
+fn within<F: Lanes>(cones: &[(Cone<F>, F)], of_cells: usize, taken: &Taken<F>, wi: V3<F>) -> F {
     let zero = F::splat(0.0);
     let mut sum = zero;
-    for (k, &(cone, weight)) in cones.iter().enumerate() {
+    for (k, &(cone, share)) in cones.iter().enumerate() {
         let own = taken.which.eq(F::U::splat(k as u32));
-        let holds = if k < kinds.of_cells {
+        let holds = if k < of_cells {
             cone.spread(wi, own & !taken.around, own)
         } else {
             F::select(cone.holds(wi, 1.0) | own, F::splat(1.0), zero)
         };
-        sum = sum + holds * weight * scales[kinds.of(k)] / cone.width;
+        sum = sum + holds * share / cone.width;
     }
     sum
 }
@@ -406,10 +405,11 @@ pub fn aim<F: Lanes>(metals: Option<&ConductorTable>, guide: &Guide, seed: u32, 
         let p = V3::<F>::load(&aimers.start, i);
         let n = V3::<F>::load(&aimers.normal, i);
         let targets = Targets { guide, p, n, places: drawn_places(guide, drawn, i) };
-        let (cones, sums) = targets.all(casters);
-        let cones = &cones[..kinds.of_cells + casters];
+        let (mut cones, sums) = targets.all(casters);
+        let cones = &mut cones[..kinds.of_cells + casters];
         let scales = targets.scales(sums);
-        let taken = choose(cones, kinds, scales, F::load(&drawn.eta2[i..]), n);
+        cones.iter_mut().enumerate().for_each(|(k, (_, weight))| *weight = *weight * scales[kinds.of(k)]);
+        let taken = choose(cones, kinds.of_cells, F::load(&drawn.eta2[i..]), n);
         let (u, v) = directions.points(&pixel);
         let wi = taken.axis.to_world(crate::sampling::warp::cone(u, v, taken.width));
         let cos = n.dot(wi);
@@ -417,7 +417,7 @@ pub fn aim<F: Lanes>(metals: Option<&ConductorTable>, guide: &Guide, seed: u32, 
         if !aimed.any() {
             continue;
         }
-        let density = within(cones, kinds, scales, &taken, wi) * c(1.0 / TWO_PI);
+        let density = within(cones, kinds.of_cells, &taken, wi) * c(1.0 / TWO_PI);
         let bsdf = colored_bsdf_of(metals, aimers, i, aimed);
         let (f, by_itself) = bsdf.evaluate(n, V3::load(&aimers.wo, i), wi, cos);
         // What the own ray carried along this direction, and the weight apart, which roulette must not see: both ways
