@@ -174,12 +174,17 @@ fn under_water(floor: &str, scale: f64) -> String {
     )
 }
 
-/// Steel under water is lit as well as what is matt there. While nothing was aimed from metals, MEASURED.
+/// Steel under water: half of its pixels have 0.95 of the mean and more. While nothing was aimed from metals nearly all
+/// were black, and the mean was 0.004 of what it is, for the rest came once in thousands of samples.
 #[test]
 fn light_over_glass_is_found_from_rough_metals() {
-    let [matt, steel] = ["Diffuse(albedo: 0.6)", "Conductor(metal: Steel, roughness: 0.7)"]
-        .map(|floor| deviation_of_half(&under_water(floor, 1.0)));
-    assert!(steel < 2.0 * matt, "{steel} and {matt}");
+    let text = under_water("Conductor(metal: Steel, roughness: 0.7)", 1.0);
+    let scene = load_str("s.ron", &text, Syntax::Ron, Path::new(""), &[]).expect("a scene").scene;
+    let film = film(&compiled(&scene), 64, 3);
+    let mut pixels: Vec<f64> = (0..32 * 32).map(|k| film.radiance(k % 32, k / 32).iter().sum()).collect();
+    pixels.sort_by(f64::total_cmp);
+    let mean = pixels.iter().sum::<f64>() / pixels.len() as f64;
+    assert!(pixels[512] > 0.8 * mean, "{} and {mean}", pixels[512]);
 }
 
 /// The floor under a slab of water is found as well in the light of a lamp that is ten times as far away and as wide:
