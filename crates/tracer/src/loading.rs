@@ -9,9 +9,10 @@ use scene_format::desc::{Material, MaterialRef, with_operands};
 use scene_format::diagnostic::{Source, keep_first};
 use scene_format::{LoadError, Loaded, MAX_FILE_BYTES, SceneDesc, Syntax};
 use std::collections::HashSet;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
 use tracer_core::mesh::MeshFormat;
 use tracer_core::{CompileError, Film, Kept, Scene};
 
@@ -330,7 +331,19 @@ pub fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
         return Ok(());
     }
     let (number, few) = threads.map_or((0, "; name fewer by --threads"), |number| (number.into(), "; lower --threads"));
-    rayon::ThreadPoolBuilder::new().num_threads(number).build_global().map_err(|error| {
+    // One after the other: a thread's first block of memory may take up 128 MiB of addresses for a moment, and one that
+    // starts in that moment, where there are hardly more, ends the program.
+    let start = |thread: rayon::ThreadBuilder| {
+        let (tell, started) = mpsc::channel();
+        let run = move || {
+            // No one listens to a thread that was given up.
+            let _ = tell.send(Box::new(0));
+            thread.run();
+        };
+        std::thread::Builder::new().spawn(run)?;
+        started.recv().map(drop).map_err(io::Error::other)
+    };
+    rayon::ThreadPoolBuilder::new().num_threads(number).spawn_handler(start).build_global().map_err(|error| {
         let count = threads.map_or("threads".to_owned(), |number| counted(number.into(), "thread"));
         Failure::could_not(format!("cannot start {count}: {error}{few}"))
     })

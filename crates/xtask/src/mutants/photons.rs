@@ -107,8 +107,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "aimed-rays-without-their-chance",
         file: AIM,
-        find: "* (targets.chance * F::splat(1.0 / TWO_PI))",
-        replace: "* F::splat(1.0 / TWO_PI)",
+        find: "over((one - casters) * lights.chance, sums[LIGHTS])",
+        replace: "over(one - casters, sums[LIGHTS])",
         caught_by: kernel_units(&["engine::stages::aim"]),
     },
     Mutant {
