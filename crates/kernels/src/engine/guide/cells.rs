@@ -174,7 +174,9 @@ impl Cells {
     /// Adds a cell whose rows are there, and tells its number.
     fn add(&mut self, strength: f32) -> u32 {
         self.strength.push(strength);
-        self.chance.push((strength * STEEPNESS / (strength + 1.0)).clamp(LEAST_CHANCE, 1.0));
+        // Without end where next to nothing is sent to the middle of the scene.
+        let often = if strength.is_finite() { strength * STEEPNESS / (strength + 1.0) } else { 1.0 };
+        self.chance.push(often.clamp(LEAST_CHANCE, 1.0));
         self.children.resize(8 * self.strength.len(), 0);
         self.strength.len() as u32 - 1
     }

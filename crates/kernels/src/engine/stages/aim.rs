@@ -155,7 +155,7 @@ impl<F: Lanes> Targets<'_, F> {
         (cone, cone.width * cone.highest)
     }
 
-    /// All cones, those of cells first, and the sums of the weights of each [`Kind`].
+    /// All cones, those of cells first, and the sums of the weights of each kind.
     #[inline(always)]
     fn all(&self, casters: usize) -> (Cones<F>, [F; 3]) {
         let zero = F::splat(0.0);
