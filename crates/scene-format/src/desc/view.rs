@@ -110,7 +110,8 @@ scene_words! {
         /// Photons are sent from the lights over mirrors and glass, and tell where rays from other surfaces are aimed.
         /// They bring no light themselves. Light paths bring it to surfaces that the camera sees. Each way counts by
         /// how likely it was, so the picture is right on average. What mirrors and glass show of lamps is sampled four
-        /// times as often. Rays are aimed at the `background` as well, where it is seen through windows and doors ajar.
+        /// times as often. Rays are aimed at the `background` as well, a colour or a picture, where it is seen through
+        /// windows and doors ajar; of a picture its bright parts send photons.
         Photons,
         /// By the rays that happen to meet a light: right on average, and slow to become smooth.
         None,

@@ -285,6 +285,7 @@ fn painter<'a>(
             options,
             crop,
             has_samples,
+            moves: film.moments > 0,
             pass: plain,
             pool,
             wants_guides: false,

@@ -3,8 +3,9 @@
 use crate::support::compare::{Samples, assert_same_picture, assert_sharing_is_unbiased};
 use crate::support::describe::*;
 use crate::support::meshes::{icosphere, write};
+use crate::support::skies::{sky, sunny};
 use crate::support::{compiled, film};
-use image::{DynamicImage, ImageFormat, Rgb32FImage};
+use image::ImageFormat;
 use scene_format::SceneDesc;
 use scene_format::codes;
 use scene_format::desc::{Background, Environment, LightGroup, PixelFilter, Shading, Vec3};
@@ -13,14 +14,6 @@ use std::path::PathBuf;
 
 /// Scenes that are compared here, for the strictness of the tests.
 const SHARED: usize = 2;
-
-/// The file of a picture whose pixel in column i and row j is `color(i, j)`.
-fn sky(name: &str, [width, height]: [u32; 2], format: ImageFormat, color: impl Fn(u32, u32) -> [f32; 3]) -> PathBuf {
-    let picture = Rgb32FImage::from_fn(width, height, |i, j| image::Rgb(color(i, j)));
-    let mut bytes = Cursor::new(Vec::new());
-    DynamicImage::from(picture).write_to(&mut bytes, format).expect("a picture in memory");
-    write(name, bytes.get_ref())
-}
 
 fn environment(file: PathBuf) -> Environment {
     Environment {
@@ -41,15 +34,6 @@ impl Under for SceneDesc {
     fn under(self, environment: Environment) -> Self {
         SceneDesc { background: Background::Environment(Box::new(environment)), ..self }
     }
-}
-
-/// A blue sky, a dark ground and a sun of two texels.
-fn sunny() -> PathBuf {
-    sky("sunny.exr", [32, 16], ImageFormat::OpenExr, |i, j| match (i, j) {
-        (20 | 21, 4) => [80.0, 70.0, 50.0],
-        (_, 0..8) => [0.2, 0.3 + 0.01 * i as f32, 0.6],
-        _ => [0.15, 0.1, 0.05],
-    })
 }
 
 /// Each direction shows its texel: the picture's middle at -z, right of it +x, the top row at `up`, turned about it.

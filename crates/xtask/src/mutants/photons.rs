@@ -154,6 +154,27 @@ pub const MUTANTS: &[Mutant] = &[
         caught_by: proofs(&["aimed::windows_under_a_sky"]),
     },
     Mutant {
+        name: "light-samples-see-the-sky-in-full-beside-aimed-rays",
+        file: "crates/kernels/src/engine/stages/shade/light_sample.rs",
+        find: "let by_rays = pdf + self.aimed_at_the_sky(at, l.wi, lit & choice.environment);",
+        replace: "let by_rays = pdf;",
+        caught_by: proofs(&["aimed::windows_under_a_picture"]),
+    },
+    Mutant {
+        name: "no-photons-from-skies",
+        file: "crates/kernels/src/engine/guide/bright.rs",
+        find: "const LEAST_PART: f64 = 0.1;",
+        replace: "const LEAST_PART: f64 = 2.0;",
+        caught_by: proofs(&["aimed::a_sun_over_glass_is_found"]),
+    },
+    Mutant {
+        name: "aimed-rays-end-in-panes",
+        file: AIM,
+        find: "path::AIMED | path::SPARED | path::SPECULAR",
+        replace: "path::AIMED | path::SPECULAR",
+        caught_by: proofs(&["aimed::aimed_rays_are_spared_by_roulette"]),
+    },
+    Mutant {
         name: "nothing-is-aimed-through-windows",
         file: "crates/kernels/src/engine/guide/sky.rs",
         find: "(matters * worth(",

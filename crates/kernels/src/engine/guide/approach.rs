@@ -35,7 +35,7 @@ const WIDE: f64 = 0.1;
 const MOST_LOOKS: usize = 20_000_000;
 
 /// A sphere around what may be in the way.
-type Ball = (DVec3, f64);
+pub(super) type Ball = (DVec3, f64);
 
 /// Where photons of a pair start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,7 +144,7 @@ fn first_in_the_way(
 
 /// Spheres around the spheres, the shapes and what meshes are placed, in this order. Around what has no end there is
 /// none: no number, with which nothing compares.
-fn balls(scene: &Scene) -> Vec<Ball> {
+pub(super) fn balls(scene: &Scene) -> Vec<Ball> {
     let mut balls: Vec<Ball> = scene.spheres.iter().map(|sphere| (sphere.center, sphere.radius)).collect();
     balls.extend(scene.shapes.iter().map(|shape| match shape.unit.is_endless() {
         true => (DVec3::NAN, f64::NAN),

@@ -16,6 +16,7 @@
 //! How guides are made, `engine::techniques::guides` says.
 
 pub mod approach;
+pub mod bright;
 pub mod casters;
 pub mod cells;
 pub mod plan;

@@ -1,6 +1,7 @@
 //! Which photons are sent from which light at which caster.
 
 use super::approach::{Start, Ways};
+use super::bright::Bright;
 use super::casters::{Caster, Casters};
 use crate::lanes::{Bits, Lanes};
 use crate::sampling::sampler::hash3;
@@ -19,6 +20,8 @@ pub mod aim {
     pub const INSIDE: u32 = 1;
     /// Neither: from all of the light, to both sides, if it has two.
     pub const EVERYWHERE: u32 = 2;
+    /// The light is the bright part of the sky: photons start on a disc before the caster.
+    pub const SKY: u32 = 3;
 }
 
 /// Pairs as look-up tables.
@@ -95,6 +98,8 @@ pub struct Plan {
     pub casters: Casters,
     /// The curved lights.
     pub curved: Arc<[CurvedRow]>,
+    /// The bright part of the sky, a light behind the numbered ones, where photons are sent from there.
+    pub bright: Option<Bright>,
     /// What all lights send towards the middle of the scene: flux, the sum of the channels, over the squared distance
     /// in units, which counts as one at least, and as the light's radius.
     pub sent: f32,
@@ -105,10 +110,12 @@ pub struct Plan {
 impl Plan {
     /// By size and distance; `None` where no light can reach anything over a caster.
     pub fn new(scene: &Scene, seed: u32) -> Option<Plan> {
-        if scene.max_bounces == 0 || scene.lights.is_empty() {
+        let sources = scene.lights.len() + usize::from(scene.environment().is_some());
+        if scene.max_bounces == 0 || sources == 0 {
             return None;
         }
-        let casters = Casters::new(scene, MOST_PAIRS / scene.lights.len());
+        let casters = Casters::new(scene, MOST_PAIRS / sources);
+        let bright = if casters.list.is_empty() { None } else { Bright::new(scene) };
         let mut pairs = Vec::new();
         let (mut all, mut of_mirrors) = (0.0, 0.0);
         for (k, light) in scene.lights.iter().enumerate().filter(|(_, light)| light.is_drawn() && !light.is_sky()) {
@@ -137,6 +144,17 @@ impl Plan {
                 pairs.push(pair);
             }
         }
+        if let Some(bright) = &bright {
+            // What comes to a unit of area from a light at the distance d is, in these units, 4 pi^2 power / (pi d^2).
+            all += 4.0 * std::f64::consts::PI * bright.fluence;
+            for (c, caster) in casters.list.iter().enumerate() {
+                let mut pair = Pair::of_sky(bright, caster);
+                of_mirrors += pair.weight;
+                pair.weight *= caster.narrow;
+                (pair.light, pair.caster) = (scene.lights.len(), c);
+                pairs.push(pair);
+            }
+        }
         let sum: f64 = pairs.iter().map(|p| p.weight).sum();
         if !(sum > 0.0 && sum.is_finite()) {
             return None;
@@ -147,11 +165,12 @@ impl Plan {
         }
         let unit = |k: usize, c: u32| (hash3(seed, k as u32, c) >> 40) as f64 / f64::from(1u32 << 24);
         Some(Plan {
-            pairs: PairTable::new(scene, seed, &pairs, &casters),
+            pairs: PairTable::new(scene, seed, &pairs, &casters, bright.as_ref()),
             chances: pairs.iter().enumerate().map(|(k, p)| (p.probability, unit(k, 0x0ff5_e700))).collect(),
             ends: pairs.iter().map(|p| [p.light, p.caster]).collect(),
             casters,
             curved: scene.tables.lights.curved.clone(),
+            bright,
             sent: all as f32,
             worth: sum / of_mirrors,
         })
@@ -232,6 +251,14 @@ impl Pair {
         Pair { light: 0, caster: 0, aim, cap: cap.clamp(0.0, 2.0), weight, probability: 0.0 }
     }
 
+    /// The sky and a caster, the weight in the unit of [`Pair::new`] times a light's power: a light of radiance L and
+    /// radius r at the distance d sends pi^2 L r^2 R^2 / d^2 to a caster of radius R and weighs L r^2 R^2 / (2 d^2).
+    fn of_sky(bright: &Bright, caster: &Caster) -> Pair {
+        let (_, radius) = bright.target(caster);
+        let weight = bright.fluence * radius * radius / (2.0 * std::f64::consts::PI) * caster.reflectance;
+        Pair { light: 0, caster: 0, aim: aim::SKY, cap: 0.0, weight, probability: 0.0 }
+    }
+
     /// Area of the light that photons of the pair start from.
     fn area(&self, scene: &Scene, light: &Light) -> f64 {
         match light {
@@ -245,14 +272,22 @@ impl Pair {
 }
 
 impl PairTable {
-    fn new(scene: &Scene, seed: u32, pairs: &[Pair], casters: &Casters) -> PairTable {
+    fn new(scene: &Scene, seed: u32, pairs: &[Pair], casters: &Casters, bright: Option<&Bright>) -> PairTable {
         let mut table = PairTable::default();
         let any_flat = scene.lights.iter().any(|light| light.flat().is_some());
         let mut ways = Ways::new(scene);
         for (k, pair) in pairs.iter().enumerate() {
-            let light = &scene.lights[pair.light];
-            let radiance = light.radiance();
             let caster = &casters.list[pair.caster];
+            table.caster.push(pair.caster as u32);
+            table.aim.push(pair.aim);
+            table.key.push(hash3(seed, k as u32, 0xca05_71c5) as u32);
+            let Some(light) = scene.lights.get(pair.light) else {
+                if let Some(bright) = bright {
+                    table.push_sky(bright, caster, pair.probability, any_flat);
+                }
+                continue;
+            };
+            let radiance = light.radiance();
             let area = pair.area(scene, light);
             // Over all directions about the normal with a cosine, on each side that shines: pi.
             let sides = if light.two_sided() { 2.0 } else { 1.0 };
@@ -274,11 +309,39 @@ impl PairTable {
             table.approach.push(if let Start::Before(way) = start { way as f32 } else { f32::INFINITY });
             table.any_far |= matches!(start, Start::Before(_));
             table.strays.push(start == Start::Stray);
-            table.caster.push(pair.caster as u32);
-            table.aim.push(pair.aim);
-            table.key.push(hash3(seed, k as u32, 0xca05_71c5) as u32);
         }
         table
+    }
+
+    /// The bright part of the sky, from where photons come to a disc before the caster. No light paths are made of them:
+    /// paths do not reckon with these.
+    fn push_sky(&mut self, bright: &Bright, caster: &Caster, probability: f64, any_flat: bool) {
+        let target = bright.target(caster);
+        let (center, radius) = target;
+        let area = std::f64::consts::PI * radius * radius;
+        for axis in 0..3 {
+            self.caster_center[axis].push(center[axis] as f32);
+            self.flux[axis].push((area / probability) as f32);
+            let unused = [&mut self.light_center, &mut self.axis, &mut self.radiance].map(|columns| &mut columns[axis]);
+            unused.into_iter().for_each(|column| column.push(0.0));
+            if any_flat {
+                [&mut self.edge, &mut self.normal]
+                    .map(|columns| &mut columns[axis])
+                    .into_iter()
+                    .for_each(|c| c.push(0.0));
+            }
+        }
+        self.caster_radius2.push((radius * radius) as f32);
+        self.approach.push(bright.before(target) as f32);
+        self.strays.push(true);
+        self.area.push(area as f32);
+        self.light.push(0);
+        self.light_radius.push(0.0);
+        self.light_primitive.push(NONE);
+        self.offset.push(0.0);
+        self.row.push(0);
+        self.flags.push(0);
+        self.cap.push(0.0);
     }
 
     /// Where photons of a light start. `any_flat`: the scene has flat lights.

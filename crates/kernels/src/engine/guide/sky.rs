@@ -37,11 +37,14 @@ impl Seen {
         self.brought.append(&mut other.brought);
     }
 
-    /// The chance that a ray is aimed, on average over where they start.
+    /// The chance that a ray is aimed, on average over where they start; where too little is found to tell cells apart,
+    /// as if there were one.
     pub fn mean_chance(&self, seed: u32) -> f32 {
         let cells = self.cells(seed);
         let of = |&point: &[f32; 3]| cells.chance[cell_at(&cells, point)];
-        self.asked.iter().map(of).sum::<f32>() / self.asked.len().max(1) as f32
+        let of_cells = self.asked.iter().map(of).sum::<f32>() / self.asked.len().max(1) as f32;
+        let of_all = self.matters() * worth(self.found.len() as f64 / self.asked.len().max(1) as f64);
+        of_cells.max(of_all as f32)
     }
 
     /// How much the sky's part of the noise is worth, from zero to one.

@@ -16,9 +16,10 @@
 //! anyway.
 //!
 //! Roulette knows nothing of it: that the own ray of a later vertex goes on is by a chance that its weight takes out
-//! again, so that both ways sum to one whatever the chance. What a path sees through several sides of glass is aimed
-//! from, too; without it the brightest pixels were those of lamps over a mirror or glass from a surface that is itself
-//! seen over one (docs/noise.md).
+//! again, so that both ways sum to one whatever the chance. Mirrors and glass spare aimed rays ([`path::SPARED`]). What
+//! a path sees through several sides of glass is aimed from, too; without it the brightest pixels were those of lamps
+//! over a mirror or glass from a surface that is itself seen over one (docs/noise.md). A sky that light samples find as
+//! well counts by the power heuristic of p + a against theirs (`super::shade`).
 
 use super::materials::TWO_PI;
 use super::points::{PairPoints, PixelOf};
@@ -434,14 +435,17 @@ pub fn aim<F: Lanes>(metals: Option<&ConductorTable>, guide: &Guide, seed: u32, 
         let sum = slot & F::U::splat(path::SUM);
         let shared = is_shared::<F>(slot);
         let late = if vertex < BRANCHING { 0 } else { LATE_AIMS * path::LATE };
-        let state =
-            F::U::select(shared, sum, sum | F::U::splat(path::OWN)) | F::U::splat(path::AIMED | path::SPECULAR | late);
+        let state = F::U::select(shared, sum, sum | F::U::splat(path::OWN))
+            | F::U::splat(path::AIMED | path::SPARED | path::SPECULAR | late);
         let k = paths.len;
         p.compress(aimed, &mut paths.origin, k);
         wi.compress(aimed, &mut paths.direction, k);
         throughput.compress(aimed, &mut paths.throughput, k);
         (F::load(&aimers.survival[i..]) * weight).compress(aimed, &mut paths.eta2[k..]);
         (F::load(&aimers.film[i..]) * cos / (by_itself + density)).compress(aimed, &mut paths.film[k..]);
+        if guide.sky.is_some() {
+            (by_itself + density).compress(aimed, &mut paths.pdf[k..]);
+        }
         n.compress(aimed, &mut paths.normal, k);
         state.compress(aimed, &mut paths.slot[k..]);
         primitive.compress(aimed, &mut paths.from_primitive[k..]);

@@ -1,6 +1,6 @@
 //! Photons: from the lights, over mirrors, glass and narrow lobes, to rough surfaces (see `engine::guide`).
 
-use super::lights::{curved, share_towards};
+use super::lights::{curved, environment, share_towards};
 use super::materials::{Bsdf, reflect_bent};
 use super::shade::leaves;
 use super::surface_at::surface_at;
@@ -110,7 +110,7 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
         if sided.any() {
             point = V3::select(sided, normal.mad(F::gather(&pairs.offset, pair), point), point);
         }
-        let sent = valid & zero.lt(density) & density.lt(two * c(super::materials::TWO_PI));
+        let mut sent = valid & zero.lt(density) & density.lt(two * c(super::materials::TWO_PI));
         density = density * rarity;
         let mut flux = V3::<F>::gather_columns(&pairs.flux, pair).scale(density);
         let mut radiance = V3::<F>::gather_columns(&pairs.radiance, pair);
@@ -131,6 +131,16 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
             passed = F::select(on_the_way, distance - approach, zero);
             leaves = F::U::select(on_the_way, F::U::splat(NONE), leaves);
         }
+        let from_sky = valid & aimed.eq(F::U::splat(aim::SKY));
+        if from_sky.any() {
+            let start = SkyStart::new(scene, plan, pair, &numbers, [salts[0], salts[1]]);
+            point = V3::select(from_sky, start.point, point);
+            direction = V3::select(from_sky, start.direction, direction);
+            flux = V3::select(from_sky, start.flux, flux);
+            passed = F::select(from_sky, c(FARTHEST), passed);
+            leaves = F::U::select(from_sky, F::U::splat(NONE), leaves);
+            sent = (sent & !from_sky) | (from_sky & start.bright);
+        }
         let k = paths.len;
         point.compress(sent, &mut paths.origin, k);
         direction.compress(sent, &mut paths.direction, k);
@@ -148,6 +158,42 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
         paths.len += sent.count();
     }
     batch.counters.photon_rays += batch.paths.len as u64;
+}
+
+/// Where photons from the bright parts of the sky start.
+struct SkyStart<F: Lanes> {
+    point: V3<F>,
+    direction: V3<F>,
+    flux: V3<F>,
+    /// Lanes whose direction is of these parts.
+    bright: F::M,
+}
+
+impl<F: Lanes> SkyStart<F> {
+    /// From a direction by the sky's density, at a point of the disc before the caster.
+    #[inline(always)]
+    fn new(scene: &Scene, plan: &Plan, pair: F::U, numbers: &Numbers<F>, salts: [u32; 2]) -> Self {
+        let zero = F::splat(0.0);
+        let none = F::M::from_bits(0);
+        let (Some(sky), Some(bright)) = (scene.environment(), &plan.bright) else {
+            return SkyStart { point: V3::zero(), direction: V3::zero(), flux: V3::zero(), bright: none };
+        };
+        let pairs = &plan.pairs;
+        let (u, v) = numbers.pair(salts[0]);
+        let from = environment::sample(sky, u, v);
+        let (u, v) = numbers.pair(salts[1]);
+        let (x, y) = warp::disc(u, v);
+        let radius = F::gather(&pairs.caster_radius2, pair).sqrt();
+        let center = V3::<F>::gather_columns(&pairs.caster_center, pair);
+        let aside = from.wi.to_world(V3(x * radius, y * radius, zero));
+        let V3(red, green, blue) = from.radiance;
+        SkyStart {
+            point: from.wi.mad(F::gather(&pairs.approach, pair), center.add(aside)),
+            direction: from.wi.neg(),
+            flux: V3::<F>::gather_columns(&pairs.flux, pair).mul(from.radiance).scale(from.inverse_pdf),
+            bright: F::splat(bright.least).lt(red + green + blue) & zero.lt(from.inverse_pdf),
+        }
+    }
 }
 
 /// Stores the photons of a mask: where, whence, whence they seem to come, and their flux.

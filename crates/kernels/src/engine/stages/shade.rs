@@ -20,6 +20,7 @@ use super::points::{PairPoints, PixelOf};
 use crate::engine::batch::{Batch, Hits, Paths, path};
 use crate::engine::pass::{Pass, Task};
 use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::V3;
 use crate::sampling::blocks::{Item, Pixels};
 use crate::sampling::sampler::Purpose;
 use crate::scene::Scene;
@@ -215,7 +216,8 @@ impl<'a, F: Lanes> Stage<'a, F> {
     }
 
     /// Ends paths by a chance that falls with what they carry, and gives the chance that they go on. That one which
-    /// shares goes on must not depend on where to: other pixels reckon with its density.
+    /// shares goes on must not depend on where to: other pixels reckon with its density. Of aimed rays mirrors and glass
+    /// end what they take themselves: such rays bring far more than the path carries (docs/noise.md).
     #[inline(always)]
     fn roulette(&self, at: &Vertex<'_, F>, chance: F, sharing: F::M, onward: &mut Onward<F>) -> F {
         let (zero, one) = (F::splat(0.0), F::splat(1.0));
@@ -223,7 +225,9 @@ impl<'a, F: Lanes> Stage<'a, F> {
         if self.vertex < ROULETTE_FROM {
             return one;
         }
-        let survival = F::select(sharing, at.colored().max_component(), onward.carried.max_component()).min(one);
+        let whole = V3::select(sharing, at.colored(), onward.carried);
+        let decides = V3::select(at.bsdf.specular() & has(at.ray.slot, path::SPARED), onward.weight, whole);
+        let survival = decides.max_component().min(one);
         onward.alive = onward.alive & chance.lt(survival);
         onward.carried = onward.carried.scale(one / F::select(zero.lt(survival), survival, one));
         survival
@@ -245,8 +249,9 @@ impl<'a, F: Lanes> Stage<'a, F> {
         if self.pass.light_paths.is_some() {
             at.film.compress(alive, &mut next.film[k..]);
         }
-        let specular = F::U::select(at.bsdf.specular(), F::U::splat(path::SPECULAR), F::U::splat(0));
-        (at.ray.slot | specular).compress(alive, &mut next.slot[k..]);
+        let [specular, not_spared] = [path::SPECULAR, !path::SPARED].map(F::U::splat);
+        let slot = F::U::select(at.bsdf.specular(), at.ray.slot | specular, at.ray.slot & not_spared);
+        slot.compress(alive, &mut next.slot[k..]);
         // Rays of mirrors and glass begin at the triangle, on the side that they go to.
         let left = F::U::select(at.bsdf.specular(), at.ray.primitive, at.leaves(onward.wi));
         left.compress(alive, &mut next.from_primitive[k..]);

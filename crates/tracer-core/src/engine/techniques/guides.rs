@@ -35,8 +35,8 @@ const MOST_MORE: u32 = 8;
 struct Guides {
     /// Where there is a way for photons.
     plan: Option<Arc<Plan>>,
-    /// The sky is looked for, too.
-    sky: bool,
+    /// How often a path sees the sky, where that is looked for, too.
+    sky: Option<f32>,
     seed: u32,
     /// Photons of the first guide.
     first: u32,
@@ -78,16 +78,17 @@ pub fn made_at(scene: &Scene, sample: u32) -> u32 {
 
 /// Guides, where they are wanted, and photons have a way to go or the sky is seen through openings.
 pub fn plan(trial: &Trial<'_>) -> Option<Box<dyn Technique>> {
-    let sky = trial.wants_guides && sky::is_worth(trial);
-    if trial.plan.is_none() && !sky {
+    let scene = trial.engine.scene;
+    let sky = if trial.wants_guides { sky::finds_per_path(trial, first_photons(scene)) } else { None };
+    if trial.plan.is_none() && sky.is_none() {
         return None;
     }
-    Some(Box::new(Guides::new(trial.engine.scene, trial.plan.clone(), sky, trial.pass.seed)))
+    Some(Box::new(Guides::new(scene, trial.plan.clone(), sky, trial.pass.seed)))
 }
 
 impl Guides {
     /// There is no guide at hand before [`Technique::before_pass`].
-    fn new(scene: &Scene, plan: Option<Arc<Plan>>, sky: bool, seed: u32) -> Self {
+    fn new(scene: &Scene, plan: Option<Arc<Plan>>, sky: Option<f32>, seed: u32) -> Self {
         let mut guide = Guide::default();
         if plan.is_some() {
             for caster in Casters::new(scene, MOST_CASTERS).list.iter().take(MOST_CASTERS) {
@@ -140,12 +141,12 @@ impl Technique for Guides {
         if let Some(plan) = self.plan.clone() {
             self.guide.lights = Some(self.of_photons(engine, &plan, stage, pool));
         }
-        if self.sky {
+        if let Some(finds) = self.sky {
             let paths = (self.first << stage.saturating_sub(1)).min(MOST_PHOTONS) / 4;
             let seed = hash3(self.seed, stage, 0x0007_21a2) as u32;
             self.guide.sky = None;
             let lights = self.guide.lights.is_some().then_some(&self.guide);
-            self.guide.sky = Some(sky::cells(engine, seed, paths, lights, pool));
+            self.guide.sky = Some(sky::cells(engine, seed, (paths, finds), lights, pool));
         }
         (self.stage, self.is_of_stage) = (stage, samples.start == first_of(stage));
     }

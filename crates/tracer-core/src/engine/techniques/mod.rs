@@ -6,6 +6,7 @@ mod light_paths;
 mod photons;
 mod reuse;
 mod sky;
+mod trial;
 
 /// The sample index at which is made what techniques hand on to this one, where the scene moves.
 pub use guides::made_at;
@@ -26,6 +27,8 @@ pub struct Trial<'a> {
     pub crop: Crop,
     /// There is anything to render.
     pub has_samples: bool,
+    /// Each sample index sees another moment, and tries anew.
+    pub moves: bool,
     /// Plain paths.
     pub pass: Pass<'a>,
     pub pool: &'a Pool,

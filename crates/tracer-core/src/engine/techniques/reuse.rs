@@ -1,6 +1,7 @@
 //! Pixels share the second vertices of their paths ([`tracer_kernels::engine::share`]).
 
 use super::Trial;
+use super::trial::{quarters, stratified};
 use crate::engine::technique::{Engine, Technique, Vertex};
 use crate::engine::trace::{bounce, occluded_in_tree};
 use std::time::Instant;
@@ -9,7 +10,7 @@ use tracer_kernels::engine::batch::{Batch, Group, ITEMS, Shadows};
 use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::{Obstacles, planes_hide};
 use tracer_kernels::report::Stage;
-use tracer_kernels::sampling::blocks::{Block, ITEM_PIXELS, Item, QUARTERS, TILE};
+use tracer_kernels::sampling::blocks::{Block, ITEM_PIXELS};
 use tracer_kernels::sampling::sampler::hash3;
 use tracer_kernels::scene::Sharing;
 
@@ -93,22 +94,13 @@ fn second_vertices(trial: &Trial<'_>) -> f32 {
     let Engine { scene, kernels, .. } = trial.engine;
     // Choices of its own: whether pixels share must not depend on the very paths that do.
     let pass = Pass { reuse: true, seed: hash3(trial.pass.seed, 0, 0x001d_17ee) as u32, ..trial.pass };
-    let [across, down] = scene.size.map(|size| size.div_ceil(TILE));
-    let all = u64::from(across) * u64::from(down) * u64::from(QUARTERS);
-    let count = (ITEMS as u64).min(all);
+    let count = (ITEMS as u64).min(quarters(scene)) as u32;
     let found = trial.pool.once(|batch| {
         batch.watch.resume();
         let start = Instant::now();
         let before = (batch.counters, batch.watch.costs);
         batch.items.clear();
-        for k in 0..count {
-            // One of the k-th of equal shares of all quarters.
-            let (first, end) = (all * k / count, all * (k + 1) / count);
-            let quarter = first + hash3(pass.seed, 0x001d_17ed, k as u32) % (end - first);
-            let (tile, quarter) = ((quarter / u64::from(QUARTERS)) as u32, (quarter % u64::from(QUARTERS)) as u32);
-            let block = Block::straight([tile % across, tile / across].map(|tile| tile as i32));
-            batch.items.push(Item { block, quarter, sample: 0 });
-        }
+        batch.items.extend((0..count).map(|k| stratified(scene, pass.seed, k, count)));
         batch.glints = 0;
         batch.shares = u32::MAX;
         batch.start();

@@ -1,6 +1,7 @@
 //! Where the sky is seen from, found out by paths ahead of all others ([`tracer_kernels::engine::guide::sky`]).
 
 use super::Trial;
+use super::trial::stratified;
 use crate::engine::technique::Engine;
 use crate::engine::trace::{met, seen, shade};
 use std::time::Instant;
@@ -10,32 +11,57 @@ use tracer_kernels::engine::guide::cells::{Cells, FARTHEST, Photon};
 use tracer_kernels::engine::guide::sky::Seen;
 use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::engine::told::beyond;
 use tracer_kernels::report::Stage;
-use tracer_kernels::sampling::blocks::{Block, ITEM_PIXELS, Item, QUARTERS, TILE};
+use tracer_kernels::sampling::blocks::ITEM_PIXELS;
 use tracer_kernels::sampling::sampler::hash3;
 use tracer_kernels::scene::{NONE, Scene};
 
 /// Paths with this bit in their slots' words began as aimed rays.
 const ASIDE: u32 = 1 << 31;
-/// Paths of the trial.
+/// Paths of a trial, at first: of windows that few of them find it takes more to tell.
 const TRIAL: u32 = PATHS as u32;
+/// So many finds tell.
+const TELLING: usize = 200;
+/// And so few nothing.
+const FEW: usize = 8;
 /// Where fewer rays than this would be aimed, of each surface one, the sky is looked for no further: rays by chance do
 /// as well.
 const LEAST: f32 = 0.03;
+/// Cells are made of so many finds at least, where that takes at most [`MOST_MORE`] times the paths.
+const WANTED: f32 = 512.0;
+const MOST_MORE: u32 = 8;
 
-/// Whether rays are aimed at the sky at all: it is one colour, and seen through openings.
-pub fn is_worth(trial: &Trial<'_>) -> bool {
+/// How often a path sees the sky, as far as that is worth to be known: not where rays by chance see it as often as aimed
+/// ones would. Found out by at most so many paths; it depends on nothing but them, so that windows are not aimed at in
+/// one frame and left to chance in the next.
+pub fn finds_per_path(trial: &Trial<'_>, most: u32) -> Option<f32> {
     let scene = trial.engine.scene;
-    let shines = scene.background.iter().any(|&x| x > 0.0) && scene.tables.lights.environment.is_none();
-    if !shines || scene.max_bounces == 0 {
-        return false;
+    if !scene.is_under_sky() || scene.max_bounces == 0 {
+        return None;
     }
-    let seed = hash3(trial.pass.seed, 0, 0x0007_21a2) as u32;
-    found(trial.engine, seed, TRIAL, None, trial.pool).mean_chance(seed) > LEAST
+    let most = if trial.moves { TRIAL } else { most };
+    let (mut seen, mut paths) = (Seen::default(), 0);
+    while seen.found.len() < TELLING && paths < most {
+        let seed = hash3(trial.pass.seed, paths, 0x0007_21a3) as u32;
+        let next = TRIAL.max(paths).min(most - paths);
+        seen.append(found(trial.engine, seed, next, None, trial.pool));
+        paths += next;
+    }
+    let is_worth = seen.found.len() >= FEW && seen.mean_chance(trial.pass.seed) > LEAST;
+    is_worth.then(|| seen.found.len() as f32 / paths as f32)
 }
 
-/// The cells of so many paths, beside rays that are aimed at lights.
-pub fn cells(engine: Engine<'_>, seed: u32, paths: u32, lights: Option<&Guide>, pool: &Pool) -> Cells {
+/// The cells of so many paths, or of more where these find little, beside rays that are aimed at lights.
+pub fn cells(
+    engine: Engine<'_>,
+    seed: u32,
+    (paths, finds_per_path): (u32, f32),
+    lights: Option<&Guide>,
+    pool: &Pool,
+) -> Cells {
+    let wanted = (WANTED / finds_per_path).ceil() as u32;
+    let paths = paths.max(wanted.min(MOST_MORE * paths));
     let seen = found(engine, seed, paths, lights, pool);
     pool.once(|batch| {
         batch.watch.resume();
@@ -54,25 +80,12 @@ fn found(engine: Engine<'_>, seed: u32, paths: u32, lights: Option<&Guide>, pool
     let trace = |k: usize, batch: &mut Batch| {
         let first = k as u32 * ITEMS as u32;
         batch.items.clear();
-        batch.items.extend((first..items.min(first + ITEMS as u32)).map(|k| item(engine.scene, seed, k, items)));
+        batch.items.extend((first..items.min(first + ITEMS as u32)).map(|k| stratified(engine.scene, seed, k, items)));
         trace(engine, seed, lights, batch)
     };
     let mut all = Seen::default();
     pool.each(batches as usize, trace).into_iter().for_each(|seen| all.append(seen));
     all
-}
-
-/// One of the k-th of so many equal shares of all quarters of the picture; where these are fewer, at another sample
-/// index.
-fn item(scene: &Scene, seed: u32, k: u32, count: u32) -> Item {
-    let [across, down] = scene.size.map(|size| size.div_ceil(TILE));
-    let all = u64::from(across) * u64::from(down) * u64::from(QUARTERS);
-    let (sample, k) = ((u64::from(k) / all) as u32, u64::from(k) % all);
-    let count = u64::from(count).min(all);
-    let (first, end) = (all * k / count, (all * (k + 1) / count).max(all * k / count + 1).min(all));
-    let quarter = first + hash3(seed, 0x001d_17ed, k as u32) % (end - first).max(1);
-    let (tile, quarter) = ((quarter / u64::from(QUARTERS)) as u32, (quarter % u64::from(QUARTERS)) as u32);
-    Item { block: Block::straight([tile % across, tile / across].map(|tile| tile as i32)), quarter, sample }
 }
 
 /// The items of a batch.
@@ -141,12 +154,16 @@ fn look(scene: &Scene, batch: &Batch, left: &mut [Option<[[f32; 3]; 3]>], found:
         if !escapes {
             continue;
         }
+        // Beside what light samples are better for.
+        let met = beyond(scene, direction, (slot & path::SPECULAR == 0).then_some(paths.pdf[i]));
+        let light = met.radiance.map(|x| x * met.weight);
         if let Some([point, direction, from]) = left[place].filter(|_| !aside) {
             let origin = [0, 1, 2].map(|axis: usize| direction[axis].mul_add(FARTHEST, point[axis]));
-            found.found.push(Photon { point, from, origin, flux: 1.0 });
+            let flux = light.iter().sum();
+            found.found.push(Photon { point, from, origin, flux });
         }
         if aside || left[place].is_some() {
-            let sky: f32 = (0..3).map(|c| paths.throughput[c][i] * scene.background[c]).sum();
+            let sky: f32 = (0..3).map(|c| paths.throughput[c][i] * light[c]).sum();
             found.brought[(slot & path::SLOT) as usize][0] += sky * paths.eta2[i];
         }
     }

@@ -3,6 +3,7 @@
 pub mod compare;
 pub mod describe;
 pub mod meshes;
+pub mod skies;
 
 use tracer_core::{Film, RenderOptions, Scene, Unobserved, compile};
 

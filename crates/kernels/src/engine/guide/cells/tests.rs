@@ -20,6 +20,18 @@ fn photons() -> Vec<Photon> {
 
 type One = ArrayF<1>;
 
+/// Where lamps send next to nothing to the middle of the scene, what arrives elsewhere is strong without end: rays are
+/// always aimed there.
+#[test]
+fn chances_are_numbers() {
+    for unit in [0.0, 1e-38, 1e38] {
+        let cells = Cells::new(3, &photons(), unit);
+        assert!(cells.chance.iter().all(|chance| (LEAST_CHANCE..=1.0).contains(chance)), "{unit}");
+    }
+    let cells = Cells::new(3, &photons(), 0.0);
+    assert_eq!(cells.chance[found(&cells, [0.25, 0.0, 0.25]) as usize], 1.0);
+}
+
 /// Through a pane the whole floor sees the sun in one direction, whatever part of the pane it is seen through: the
 /// cones are as narrow as the sun, where those around the pieces of the pane were as wide as the cells.
 #[test]

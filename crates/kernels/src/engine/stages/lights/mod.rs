@@ -9,7 +9,7 @@
 
 mod covered;
 pub mod curved;
-mod environment;
+pub mod environment;
 mod flat;
 mod glow;
 mod selection;

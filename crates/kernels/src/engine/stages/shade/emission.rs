@@ -60,11 +60,15 @@ impl<F: Lanes> Stage<'_, F> {
     #[inline(always)]
     pub fn beyond(&self, ray: &Ray<F>, aimed: F::M, paths: &Paths, shown: F) -> Seen<F> {
         let mut lanes = if self.open { ray.valid & !ray.hit } else { F::M::from_bits(0) };
-        let sky = self.pass.guide.filter(|guide| guide.sky.is_some());
+        let sky = self.pass.guide.filter(|guide| guide.sky.is_some() && self.vertex > 0);
         let mut shown = shown;
+        let mut by_rays = None;
         match sky {
-            Some(guide) if self.vertex > 0 => shown = shown * self.weight_of_own(guide, ray, paths, lanes),
-            _ => lanes = lanes & !aimed,
+            Some(guide) => {
+                let (both, share) = self.own_and_aimed(guide, ray, paths, lanes);
+                (by_rays, shown) = (Some(both), shown * share);
+            }
+            None => lanes = lanes & !aimed,
         }
         let mut light = ray.throughput.scale(shown).mul(V3::<F>::splat(self.scene.background));
         let lights = &self.scene.tables.lights;
@@ -72,28 +76,30 @@ impl<F: Lanes> Stage<'_, F> {
             && (self.vertex > 0 || environment.camera_visible)
             && lanes.any()
         {
-            let pdf = F::load(&paths.pdf[ray.first..]);
+            let by_rays = by_rays.unwrap_or_else(|| F::load(&paths.pdf[ray.first..]));
             let (sampled, radiance) = lights::beyond(lights, environment, ray.direction);
-            let weight = F::select(has(ray.slot, path::SPECULAR), F::splat(1.0), power_heuristic(pdf, sampled));
+            // Of mirrors and glass no light sample takes this direction; an aimed ray is a rough surface's.
+            let not_sampled = has(ray.slot, path::SPECULAR) & !aimed;
+            let weight = F::select(not_sampled, F::splat(1.0), power_heuristic(by_rays, sampled));
             light = ray.throughput.mul(radiance).scale(shown * weight);
         }
         Seen { light, lanes }
     }
 
-    /// What rays count that see the sky, which those that are aimed from the same surface may see, too: those count so
-    /// already.
+    /// Of rays that see the sky, which those that are aimed from the same surface may see, too: the density of both
+    /// ways together, and what share of it is these rays' (aimed ones count so already).
     #[inline(always)]
-    fn weight_of_own(&self, guide: &Guide, ray: &Ray<F>, paths: &Paths, lanes: F::M) -> F {
+    fn own_and_aimed(&self, guide: &Guide, ray: &Ray<F>, paths: &Paths, lanes: F::M) -> (F, F) {
+        let by_itself = F::load(&paths.pdf[ray.first..]);
         let one = F::splat(1.0);
         let own = lanes & has(ray.slot, path::AIMS);
         if !own.any() {
-            return one;
+            return (by_itself, one);
         }
-        let by_itself = F::load(&paths.pdf[ray.first..]);
         let normal = V3::<F>::load(&paths.normal, ray.first);
         let from = aim::From { p: ray.origin, n: normal, shared: aim::is_shared::<F>(ray.slot) };
-        let by_aiming = aim::density(guide, from, ray.direction, own);
-        F::select(own, by_itself / (by_itself + by_aiming), one)
+        let both = by_itself + aim::density(guide, from, ray.direction, own);
+        (F::select(own, both, by_itself), F::select(own, by_itself / both, one))
     }
 
     /// Light of the lights that the rays of these lanes hit, beside what is seen already. Light is added path by path,

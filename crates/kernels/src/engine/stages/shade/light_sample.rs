@@ -4,8 +4,10 @@ use super::mis::weight_of_ratio;
 use super::vertex::Vertex;
 use super::{Points, Stage};
 use crate::engine::batch::Shadows;
+use crate::engine::stages::aim;
 use crate::engine::stages::lights::{self, Receiver};
 use crate::lanes::{Bits, Lanes, Mask};
+use crate::math::V3;
 use crate::scene::NONE;
 
 impl<F: Lanes> Stage<'_, F> {
@@ -39,7 +41,8 @@ impl<F: Lanes> Stage<'_, F> {
             return;
         }
         let (f, pdf) = bsdf.evaluate(s.ns, *wo, l.wi, cos_i);
-        let weight = F::select(goes_on, weight_of_ratio(pdf * l.inverse_pdf), F::splat(1.0));
+        let by_rays = pdf + self.aimed_at_the_sky(at, l.wi, lit & choice.environment);
+        let weight = F::select(goes_on, weight_of_ratio(by_rays * l.inverse_pdf), F::splat(1.0));
         let mut value = f.mul(ray.throughput).mul(l.radiance).scale(cos_i * l.inverse_pdf * (weight * ray.eta2));
         if tables.lights.glow.is_some() {
             let on_lamp = lit & !choice.environment;
@@ -56,5 +59,18 @@ impl<F: Lanes> Stage<'_, F> {
         ray.instance.compress(cast, &mut shadows.from_instance[k..]);
         l.primitive.compress(cast, &mut shadows.target_primitive[k..]);
         shadows.len += cast.count();
+    }
+
+    /// The density with which rays are aimed from here along these directions, for lanes where these see the sky.
+    #[inline(always)]
+    fn aimed_at_the_sky(&self, at: &Vertex<'_, F>, wi: V3<F>, lanes: F::M) -> F {
+        let zero = F::splat(0.0);
+        let Some(guide) = self.pass.guide.filter(|guide| guide.sky.is_some() && lanes.any()) else { return zero };
+        let lanes = lanes & self.aims(at);
+        if !lanes.any() {
+            return zero;
+        }
+        let from = aim::From { p: at.s.start, n: at.s.ns, shared: aim::is_shared::<F>(at.ray.slot) };
+        F::select(lanes, aim::density(guide, from, wi, lanes), zero)
     }
 }

@@ -77,24 +77,35 @@ impl<F: Lanes> Stage<'_, F> {
         at.ray.slot = F::U::select(untouched, slot | F::U::splat(path::OWN), slot);
     }
 
+    /// Lanes that rays may be aimed from.
+    #[inline(always)]
+    pub fn aims(&self, at: &Vertex<'_, F>) -> F::M {
+        // What a ray aimed from the last vertex met could not scatter.
+        if self.pass.guide.is_none() || self.vertex >= self.scene.max_bounces {
+            return F::M::from_bits(0);
+        }
+        let aims = at.surfaces & at.bsdf.rough() & F::splat(0.0).lt(at.colored().max_component());
+        if self.vertex < BRANCHING {
+            return aims;
+        }
+        aims & (at.ray.slot & F::U::splat(path::LATES)).lt(F::U::splat(LATE_AIMS * path::LATE))
+    }
+
     /// Adds those that rays may be aimed from to `aimers`.
     #[inline(always)]
     pub fn leave_aimers(&self, at: &mut Vertex<'_, F>, aimers: &mut Members) {
-        // What a ray aimed from the last vertex met could not scatter.
         if self.pass.guide.is_none() || self.vertex >= self.scene.max_bounces {
             return;
         }
+        let aims = self.aims(at);
         let mut carried = at.colored();
-        let mut aims = at.surfaces & at.bsdf.rough() & F::splat(0.0).lt(carried.max_component());
         let metals = self.scene.tables.materials.conductors.is_some();
         if metals {
             carried = V3::select(at.bsdf.has_one_color(), carried, at.ray.throughput);
         }
         if self.vertex >= BRANCHING {
-            let late = F::U::splat(path::LATE);
             let slot = at.ray.slot;
-            aims = aims & (slot & F::U::splat(path::LATES)).lt(late * F::U::splat(LATE_AIMS));
-            at.ray.slot = F::U::select(aims, slot + late, slot);
+            at.ray.slot = F::U::select(aims, slot + F::U::splat(path::LATE), slot);
         }
         at.film.compress(aims, &mut aimers.film[aimers.len..]);
         if metals {
