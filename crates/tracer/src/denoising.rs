@@ -42,6 +42,14 @@ impl DenoiseReport {
             Some(times) if times.is_finite() && times > 1.0 => {
                 format!("denoised in {seconds:.2} s: errors about {times:.1} times smaller")
             }
+            Some(times) if times.is_finite() && times < 0.95 => {
+                let larger = 1.0 / times;
+                format!(
+                    "denoised in {seconds:.2} s: errors about {larger:.1} times larger, so it is not better here: \
+                     leave --denoise out"
+                )
+            }
+            Some(times) if times.is_finite() => format!("denoised in {seconds:.2} s: errors about as large as before"),
             Some(_) => format!("denoised in {seconds:.2} s"),
             None => format!("denoised by {} in {seconds:.2} s", self.by),
         }
@@ -256,5 +264,12 @@ mod tests {
         assert_eq!(report.to_text(), "denoised by Open Image Denoise 2.5.1 in 0.50 s");
         let report = DenoiseReport { error_after: Some(0.01), ..report };
         assert_eq!(report.to_text(), "denoised in 0.50 s: errors about 5.0 times smaller");
+        let report = DenoiseReport { error_after: Some(0.075), ..report };
+        assert_eq!(
+            report.to_text(),
+            "denoised in 0.50 s: errors about 1.5 times larger, so it is not better here: leave --denoise out"
+        );
+        let report = DenoiseReport { error_after: Some(0.051), ..report };
+        assert_eq!(report.to_text(), "denoised in 0.50 s: errors about as large as before");
     }
 }

@@ -158,10 +158,13 @@ fn a_finished_picture_is_extended() {
     sandbox.run(&render("a.pfm", "20", &["--resume", "d.film"])).ends(0).silent();
     sandbox.run(&render("b.pfm", "20", &[])).ends(0);
     assert_eq!(sandbox.read("a.pfm"), sandbox.read("b.pfm"));
-    sandbox
-        .run(&render("a.pfm", "19", &["--resume", "d.film"]))
-        .ends(2)
-        .says(&["20 samples per pixel", "19 are asked"]);
+    sandbox.run(&render("a.pfm", "19", &["--resume", "d.film"])).ends(2).says(&[
+        "20 samples per pixel",
+        "19 are asked",
+        "--samples 20 or more",
+        "`tracer merge d.film -o out.png`",
+    ]);
+    sandbox.run(&["merge", "d.film", "-o", "out.png"]).ends(0);
     // Exposure and tone map are made of the film.
     let brighter = ["--resume", "d.film", "--exposure", "1", "--set", "effects.tone_map=AgX"];
     sandbox.run(&render("a.png", "20", &brighter)).ends(0).silent();

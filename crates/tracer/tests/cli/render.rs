@@ -277,3 +277,16 @@ fn a_picture_that_is_done_is_opened() {
         .ends(2)
         .says(&["--open is for pictures"]);
 }
+
+/// What is said twice in two ways is not passed over in one of them.
+#[test]
+fn an_exposure_is_said_once() {
+    let sandbox = Sandbox::new();
+    let render =
+        |more: &[&str]| sandbox.run(&[&["render", "scene.ron", "-o", "a.png", "--samples", "1"], more].concat());
+    let ran = render(&["--exposure", "3", "--set", "effects.exposure=8"]).ends(2);
+    ran.says(&["--exposure 3 and --set effects.exposure=8 say two things: leave one of them out"]);
+    assert!(!sandbox.path("a.png").exists());
+    render(&["--exposure", "-1", "--set", "effects.exposure=-1"]).ends(0);
+    render(&["--exposure", "-1", "--set", "effects.tone_map=AgX"]).ends(0);
+}

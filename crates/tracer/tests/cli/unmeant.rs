@@ -378,6 +378,10 @@ fn empty_pictures_are_told() {
     sandbox.write("dark.ron", exposed(-8));
     sandbox.run(&["render", "dark.ron", "-o", "a.png"]).ends(0).says(&["try `--set effects.exposure=0`"]);
     sandbox.run(&["render", "dark.ron", "-o", "a.png", "--set", "effects.exposure=0"]).ends(0).silent();
+    // Where an option has said it, that is to be changed.
+    sandbox.write("lit.ron", exposed(0));
+    let told = sandbox.run(&["render", "lit.ron", "-o", "a.png", "--exposure", "-8"]).ends(0);
+    told.says(&["W0308", "try `--exposure 0`"]);
     // Three quarters are white, of which one is told, too; a lamp that is seen is not.
     let sky = |objects: &str| scene("background: 8,", objects);
     assert_eq!(codes(&sandbox, &sky(ball)), ["W0318"]);

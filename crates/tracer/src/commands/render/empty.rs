@@ -16,9 +16,13 @@ const WHY_BLACK: [Code; 6] = [
 ];
 
 /// What is said of a picture that is nearly black, white, or nothing but background. A part of one (`--crop`) may well
-/// be. Where it was said before why, nothing.
-pub(super) fn warning(film: &Film, desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
-    let fault = of_picture(film, desc, scene)?;
+/// be. Where it was said before why, nothing. `is_exposed`: an option has said how bright it is shown.
+pub(super) fn warning(film: &Film, desc: &SceneDesc, scene: &Scene, is_exposed: bool) -> Option<Diagnostic> {
+    let mut fault = of_picture(film, desc, scene)?;
+    if is_exposed {
+        // The option counts more than what is set.
+        fault.hint = fault.hint.replace("--set effects.exposure=", "--exposure ");
+    }
     // That there is no light at all whoever reads a scene tells.
     let no_light = desc.background.is_black() && tracer_core::shining_objects(scene) == 0 && !is_without_light(desc);
     let is_told = no_light || scene.warnings.iter().any(|told| WHY_BLACK.contains(&told.code));

@@ -193,6 +193,7 @@ fn described(args: &RenderArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
         desc.render.seed = seed.into();
     }
     if let Some(exposure) = args.exposure {
+        exposed_once(args, &desc, exposure)?;
         desc.effects.exposure = exposure.into();
     }
     if let Some(word) = args.integrator.and_then(IntegratorName::word) {
@@ -204,6 +205,17 @@ fn described(args: &RenderArgs, shell: &Shell) -> Result<SceneDesc, Failure> {
         }
     }
     Ok(desc)
+}
+
+/// Sees that `--set` gives no other exposure than the option: one of them would be passed over.
+fn exposed_once(args: &RenderArgs, desc: &SceneDesc, exposure: f64) -> Result<(), Failure> {
+    let is_set = |set: &&String| set.split_once('=').is_some_and(|(path, _)| path.trim() == "effects.exposure");
+    match args.scene.set.iter().rfind(is_set) {
+        Some(set) if desc.effects.exposure.value != exposure => {
+            Err(Failure::wrong(format!("--exposure {exposure} and --set {set} say two things: leave one of them out")))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn crop(args: &RenderArgs, desc: &SceneDesc) -> Result<Crop, Failure> {

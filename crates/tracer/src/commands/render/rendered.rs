@@ -11,7 +11,7 @@ use crate::interrupt;
 use crate::loading::expect_all_moments;
 use crate::progress::{Goals, Watch};
 use std::time::Instant;
-use tracer_core::{Counters, Film, RenderOptions, render, resume};
+use tracer_core::{Counters, Film, Misfit, RenderOptions, render, resume};
 
 /// A film, and what became of the rendering.
 pub(super) struct Rendered {
@@ -61,7 +61,9 @@ impl Rendered {
         let watch = Watch::new(asked.shell, all).going_on(done, all, checkpoints).until(goals);
         let options = options(asked, ready, goals.until);
         let film = match begun {
-            Some(film) => resume(scene, &options, film, &watch).map_err(|misfit| Failure::wrong(misfit.to_string()))?,
+            Some(film) => {
+                resume(scene, &options, film, &watch).map_err(|misfit| Failure::wrong(unfit(misfit, asked)))?
+            }
             None => render(scene, &options, &watch),
         };
         watch.finish();
@@ -84,6 +86,17 @@ impl Rendered {
     /// begun.
     pub fn is_too_little(&self, outputs: &[Output]) -> bool {
         self.most == 0 || self.interrupted && self.fewest == 0 && outputs::are_there(outputs)
+    }
+}
+
+/// Why a film is not gone on with, and what to do.
+fn unfit(misfit: Misfit, asked: &Asked<'_>) -> String {
+    match (misfit, &asked.args.resume, asked.part) {
+        (Misfit::Samples { held, .. }, Some(file), None) => format!(
+            "{misfit}; write --samples {held} or more; `tracer merge {} -o out.png` makes the picture of what is there",
+            file.display()
+        ),
+        _ => misfit.to_string(),
     }
 }
 

@@ -40,8 +40,8 @@ pub(super) fn of_picture(
         shell.say(&denoised.to_text());
     }
     of_film(film, args, desc, shell);
-    let warnings: Vec<_> =
-        empty::warning(film, desc, &ready.scene).into_iter().chain(cut::warning(film, desc)).collect();
+    let empty = empty::warning(film, desc, &ready.scene, args.exposure.is_some());
+    let warnings: Vec<_> = empty.into_iter().chain(cut::warning(film, desc)).collect();
     shell.diagnostics(&warnings, &desc.sources, args.scene.diagnostics);
     if !shell.is_told() {
         return;
