@@ -53,7 +53,9 @@ const NAMED: &str = r##"Scene(
     },
     materials: {
         "a": Diffuse(albedo: "wall"),
-        "b": BlinnPhong(albedo: Checkerboard(a: "green", b: "wall"), exponent: 9, specular: 0.1),
+        "b": BlinnPhong(
+            albedo: Checkerboard(a: "green", b: "wall", mapping: Uv(scale: 8)), exponent: 9, specular: 0.1,
+        ),
         "c": Conductor(reflectance: "clouds"),
         "d": Diffuse(albedo: "#205010"),
     },
@@ -72,7 +74,9 @@ fn inline() -> String {
             background: 1,
             materials: {{
                 "a": Diffuse(albedo: {wall}),
-                "b": BlinnPhong(albedo: Checkerboard(a: "#205010", b: {wall}), exponent: 9, specular: 0.1),
+                "b": BlinnPhong(
+                    albedo: Checkerboard(a: "#205010", b: {wall}, mapping: Uv(scale: 8)), exponent: 9, specular: 0.1,
+                ),
                 "c": Conductor(reflectance: {clouds}),
                 "d": Diffuse(albedo: "#205010"),
             }},

@@ -230,6 +230,14 @@ codes! {
     /// objects: [Plane(), Sphere(center: (0, -2, 0), radius: 1)]
     /// ```
     BEHIND_PLANE "W0325" "something behind a plane";
+    /// One square of a `Checkerboard` covers all of a thing, so that `b` is not seen: its squares lie by texture
+    /// coordinates, one square a unit, and these go from 0 to 1 over a sphere, a cylinder or each face of a box.
+    /// `mapping: Uv(scale: 8)` puts eight along each side; `mapping: Object(scale: 2)` makes cubes in space.
+    ///
+    /// ```ron
+    /// Scene(background: 1, objects: [Box(size: 1, material: Diffuse(albedo: Checkerboard()))])
+    /// ```
+    SINGLE_SQUARE "W0326" "a checkerboard of one square";
     /// A material has a name that no object uses. Remove it, or use it.
     ///
     /// ```ron
@@ -255,6 +263,18 @@ codes! {
     /// Scene(background: 1, objects: [Sphere(center: ("=time", 0, 0), radius: 1)])
     /// ```
     NOTHING_MOVES "W0403" "time does not go by";
+    /// `output.light_groups` asks for what each group of lights brings to the picture, and no light is of one: the only
+    /// layer is that of the rest, which is the picture. Write a `group` in lights, in an `Emissive` or in the
+    /// `Environment`.
+    ///
+    /// ```ron
+    /// Scene(
+    ///     output: Output(light_groups: true),
+    ///     background: 1,
+    ///     objects: [Sphere(center: (0, 0, 0), radius: 1)],
+    /// )
+    /// ```
+    NO_LIGHT_GROUP "W0404" "groups of lights, and no light is of one";
     /// A mesh has oddities that were mended: triangles without area, points and lines, missing normals. They are
     /// counted.
     MESH_ODDITIES "W0510" "oddities in a mesh";

@@ -123,6 +123,7 @@ pub(crate) fn scene(tree: &Tree<'_>, sink: &mut Sink) -> Option<Whole> {
     scene.materials = reader.materials.take();
     scene.cameras = reader.cameras.take();
     reader.shapes(&scene);
+    reader.unseen(root, &scene);
     let moves = reader.moves(&chosen.camera.shutter);
     Some(Whole { scene, camera: chosen, moves })
 }

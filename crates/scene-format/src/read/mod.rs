@@ -38,6 +38,7 @@ mod told;
 mod transforms_elsewhere;
 mod typed;
 mod unknown;
+mod unseen;
 mod unused;
 mod value;
 mod variant;
