@@ -231,3 +231,191 @@ fn what_is_offered_can_be_read() {
         assert!(explain_word(word).is_some_and(|text| text.contains(told)), "{word}");
     }
 }
+
+/// Repetitions over lists, copies by a rule in brackets, radii of two ends, lamps without shadows and others.
+#[test]
+fn shapes_and_lists_of_other_programs() {
+    let cases = [
+        ("Sphere(radius: 1, placements: [Ring(count: 6, radius: 2)])", "write `placements: Ring(count: 6, radius: 2)`"),
+        ("Sphere(radius: 1, placements: [[Grid(count: (2, 1, 2))]])", "write `placements: Grid(count: (2, 1, 2))`"),
+        (
+            "Sphere(radius: 1, placements: [Grid(count: (2, 1, 2)), Ring(count: 6, radius: 2)])",
+            "each other has an object of its own",
+        ),
+        (
+            "Repeat(for_each: [1, 2], items: [Box()])",
+            "`count: 2, vars: { \"v\": Pick(from: [1, 2], index: \"=i\") }`: in",
+        ),
+        (
+            "Repeat(list: [1, 2], index: \"r\", items: [Box()])",
+            "{ \"r\": Pick(from: [1, 2], index: \"=i\") }`, and no `index`",
+        ),
+        ("Repeat(list: [Box()], count: 2)", "did you mean `items`?"),
+        ("Repeat(for: 5, items: [Box()])", "`count: 5`"),
+        ("Cylinder(radius: 1, chamfer: 0.1)", "Lathe(profile: [(0, 0), (0.9, 0), (1, 0.1)"),
+        ("Cylinder(radius: 1, depth: 2)", "write `from: (0, 0, 0), to: (0, 2, 0)`"),
+        ("Screw(pitch: 0.1)", "Tube(points: [Repeat("),
+        ("Thread()", "Tube(points: [Repeat("),
+        ("Cone(from: (0, 0, 0), to: (0, 1, 0), radius: 1, radius_to: 0.5)", "did you mean `tip_radius`?"),
+        ("Cone(from: (0, 0, 0), to: (0, 1, 0), r1: 1)", "did you mean `radius`?"),
+        ("Cone(from: (0, 0, 0), to: (0, 1, 0), r0: 1, r1: 0.5)", "write `radius: 1, tip_radius: 0.5`"),
+        ("Torus(radius: 1, r2: 0.2)", "did you mean `tube_radius`?"),
+        ("Box(corner: (0, 0, 1), size: 1)", "write `center: (0.5, 0.5, 1.5)`"),
+        ("Box(min: (0, 0, 0), size: (1, 2, 3))", "write `center: (0.5, 1, 1.5)`"),
+        ("Box(corner: (0, 0, 0))", "about its `center`"),
+        ("Box(min: (0, 0, 0), max: (1, 2, 3))", "write `center: (0.5, 1, 1.5), size: (1, 2, 3)`"),
+        (
+            "Difference(objects: [Group(objects: [Box(), Sphere(radius: 1)]), Box()])",
+            "write Union(objects: [Box(), Sph",
+        ),
+        ("Difference(objects: [Group(objects: [Box()], transform: [Scale(2)]), Box()])", "a group about the origin"),
+        ("Difference(objects: [Include(file: \"a.ron\"), Box()])", "write its shapes here, in a `Union`"),
+        ("Difference(Sphere(radius: 1), Box(), material: Mirror())", "write `objects: [Sphere(radius: 1), Box()]`"),
+        ("Sphere(radius: 1, center: Keyframes([(0, (0, 0, 0))]))", "\"=keyframes(time, 0, (0, 0, 0), 1, (1, 0, 0))\""),
+        ("Box(rounding: Animated([0, 1]))", "\"=keyframes(time, 0, 1, 1, 2)\""),
+        ("Dimension(from: (0, 0, 0), to: (1, 0, 0))", "two Arrows that meet in its middle"),
+        ("ShadowCatcher()", "there is no shadow catcher"),
+        ("Box(shadow_catcher: true)", "there is no shadow catcher"),
+        ("Cloth()", "a mesh that another program has draped"),
+        ("Text(string: \"A\")", "an Extrude of their outlines"),
+        ("Checkerboard()", "Plane(material: Diffuse(albedo: Checkerboard()))"),
+        ("Repeat(count: 5, items: [Box(size: (1, \"=4-i\", 1))])", "write \"=max(4-i, 0.001)\", which stays above 0"),
+        ("Repeat(count: 2, items: [Sphere(radius: \"=i\")])", "write \"=max(i, 0.001)\""),
+    ];
+    check(&cases, Syntax::Ron, of_object);
+    let of_list = |repeat: &str| format!("Scene(background: 1, vars: {{ \"p\": [(0, 0, 0)] }}, objects: [{repeat}])");
+    let cases = [
+        (
+            "Repeat(over: \"=p\", as: \"a\", items: [Box(center: \"=a\")])",
+            "`count: \"=len(p)\", vars: { \"a\": \"=p[i]\" }`",
+        ),
+        ("Repeat(for: \"a\", in: p, items: [Box(center: \"=a\")])", "`count: \"=len(p)\", vars: { \"a\": \"=p[i]\" }`"),
+        ("Repeat(over: \"=p\", as: \"a\", index: \"k\", items: [Box()])", "{ \"a\": \"=p[k]\" }`"),
+        ("Repeat(over: \"=p\", items: [Box()])", "in its items \"=v\" is one of them"),
+        ("Repeat(over: \"=p\", as: \"a\", count: 1, items: [Box()])", "write `vars: { \"a\": \"=p[i]\" }`"),
+        (
+            "Repeat(over: \"=p\", as: \"a\", vars: { \"b\": 1 }, items: [Box(size: \"=b\")])",
+            "write `count: \"=len(p)\"`, and into its `vars` `\"a\": \"=p[i]\"`",
+        ),
+    ];
+    check(&cases, Syntax::Ron, of_list);
+    let cases = [
+        (
+            r#"{"Sphere": {"radius": 1, "placements": [{"Ring": {"count": 6, "radius": 2}}]}}"#,
+            r#"write `"placements": {"Ring""#,
+        ),
+        (
+            r#"{"Repeat": {"over": "=p", "as": "a", "items": [{"Box": {}}]}}"#,
+            r#"write `"count": "=len(p)", "vars": { "a": "#,
+        ),
+        (
+            r#"{"Difference": {"objects": [{"Group": {"objects": [{"Box": {}}]}}]}}"#,
+            r#"write "Union" in place of "Group""#,
+        ),
+    ];
+    check(&cases, Syntax::Json, |object| format!("{{\"background\": 1, \"objects\": [{object}]}}"));
+}
+
+#[test]
+fn cameras_lamps_and_surfaces_of_other_programs() {
+    let cases = [
+        ("Diffuse(albedo: 0.5, transmission: 0.5)", "no light goes through it"),
+        ("Diffuse(albedo: 0.5, translucency: 0.5)", "no light goes through it"),
+        ("Diffuse(albedo: 0.5, two_sided: true)", "look alike from both: leave it out"),
+        ("Mirror(two_sided: true)", "look alike from both: leave it out"),
+        ("Unlit(color: 0.5)", "Emissive(radiance: 1"),
+        ("ShadowCatcher()", "there is no shadow catcher"),
+        ("Emissive(lux: 500)", "lux times the square of the distance"),
+    ];
+    check(&cases, Syntax::Ron, of_material);
+    let light = |light: &str| {
+        format!("Scene(lights: [SphereLight(center: (0, 3, 0), radius: 1, {light})], objects: [Box(size: 1)])")
+    };
+    let cases = [
+        ("power: 9, cast_shadows: false", "no lamp does without"),
+        ("power: 9, falloff: 2", "with the square of the distance, as it does"),
+        ("lux: 500", "`luminous_intensity: 2000`"),
+    ];
+    check(&cases, Syntax::Ron, light);
+    let top = |top: &str| format!("Scene(background: 1, {top}, objects: [Box(size: 1)])");
+    let cases = [
+        ("camera: Camera(projection: Orthographic(width: 12))", "write `height: 12`: in a picture of 512x512 pixels"),
+        (
+            "image: Image(width: 640, height: 480), camera: Camera(projection: Orthographic(width: 12))",
+            "write `height: 9`: in a picture of 640x480 pixels that is 12 across",
+        ),
+        ("camera: Camera(projection: Orthographic(width: \"=2*6\"))", "the width times the picture's height over"),
+        ("camera: Camera(shutter: 180)", "180 degrees are 0.5"),
+        (
+            "effects: Effects(depth_of_field: DepthOfField(f_stop: 2.8, focus_distance: 3))",
+            "`ThinLens(aperture: 0.1, focus_distance: 3)`; its aperture is the diameter",
+        ),
+        ("effects: Effects(depth_of_field: DepthOfField)", "write ThinLens(aperture: 0.1, focus_distance: 5)"),
+        ("effects: Effects(antialiasing: true)", "leave it out: edges are smooth without it"),
+        ("render: Render(antialiasing: true)", "edges are smooth without it: leave it out"),
+        ("render: Render(pixel_filter: \"box\")", "how samples become pixels is said by `effects"),
+        ("image: \"out.png\"", "tracer render scene.ron -o out.png"),
+        ("animation: Animation(start: 0, end: 2)", "2 seconds with 24 frames in each are `frames: 48`"),
+        ("animation: Animation(end: 250, fps: 25)", "if these are frames, write `frames: 251`"),
+        ("animation: Animation(start: 1, end: 9, frames: 9)", "which are rendered is said on the command line"),
+    ];
+    check(&cases, Syntax::Ron, top);
+}
+
+/// What is sure of these is mended, and what is not stays.
+#[test]
+fn lists_and_copies_are_mended() {
+    for (written, right) in [
+        (
+            "Sphere(radius: 1, placements: [Ring(count: 6, radius: 2)])",
+            "Sphere(radius: 1, placements: Ring(count: 6, radius: 2))",
+        ),
+        (
+            "Cone(from: (0, 0, 0), to: (0, 1, 0), r1: 1, r2: 0.5)",
+            "Cone(from: (0, 0, 0), to: (0, 1, 0), radius: 1, tip_radius: 0.5)",
+        ),
+        (
+            "Repeat(over: [1, 2], as: \"r\", items: [Sphere(radius: \"=r\")])",
+            "Repeat(count: 2, vars: { \"r\": Pick(from: [1, 2], index: \"=i\") }, items: [Sphere(radius: \"=r\")])",
+        ),
+        (
+            "Difference(objects: [Group(objects: [Box()]), Box()])",
+            "Difference(objects: [Union(objects: [Box()]), Box()])",
+        ),
+        ("Difference(Box(), Box(), material: Mirror())", "Difference(objects: [Box(), Box()], material: Mirror())"),
+        ("Box(corner: (0, 0, 0), size: 1)", "Box(center: (0.5, 0.5, 0.5), size: 1)"),
+    ] {
+        assert_eq!(mend("scene", &of_object(written), Syntax::Ron, Path::new("")).text, of_object(right));
+    }
+    for written in [
+        "Sphere(radius: 1, placements: [Grid(count: (2, 1, 2)), Ring(count: 6, radius: 2)])",
+        "Repeat(over: [1, 2], items: [Box()])",
+        "Difference(objects: [Group(objects: [Box()], transform: [Scale(2)]), Box()])",
+        // A comment would swallow the bracket.
+        "Difference(Box(), // a wall\n Box(), material: Mirror())",
+    ] {
+        let written = of_object(written);
+        assert_eq!(mend("scene", &written, Syntax::Ron, Path::new("")).text, written);
+    }
+}
+
+/// What stands in the new hints can be read.
+#[test]
+fn scenes_of_hints_can_be_read() {
+    for object in [
+        "Lathe(profile: [(0, 0), (0.9, 0), (1, 0.1), (1, 1.9), (0.9, 2), (0, 2)])",
+        "Arrow(from: (0.5, 0, 0), to: (0, 0, 0), radius: 0.01)",
+        "Box(material: Emissive(radiance: 0.2, color: (1, 0.8, 0.6)))",
+        "Box(material: Emissive(radiance: 1, color: (0.8, 0.2, 0.1)))",
+        "Sphere(radius: 1, center: \"=keyframes(time, 0, (0, 0, 0), 1, (1, 0, 0))\")",
+        "Repeat(count: 5, items: [Box(size: (1, \"=max(4-i, 0.001)\", 1))])",
+        "Repeat(count: 2, vars: { \"v\": Pick(from: [1, 2], index: \"=i\") }, items: [Box(size: \"=v\")])",
+    ] {
+        assert_eq!(errors(&of_object(object), Syntax::Ron), [], "{object}");
+    }
+    for word in ["text", "label", "labels", "letters", "caption", "annotation"] {
+        let told = explain_word(word).unwrap_or_default();
+        assert!(told.contains("marks") && told.contains("Extrude of their outlines"), "{word}: {told}");
+    }
+    assert!(explain_word("shadow catcher").is_some_and(|told| told.contains("there is no shadow catcher")));
+}

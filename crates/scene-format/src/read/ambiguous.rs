@@ -12,7 +12,7 @@ use crate::tree::{Item, Kind};
 const AXIS: &[&str] = &["axis", "direction", "dir", "normal", "orientation"];
 const CENTER: &[&str] = &["center", "centre", "position", "pos", "location"];
 const BASE: &[&str] = &["base", "base_center", "bottom", "start"];
-const HEIGHT: &[&str] = &["height", "length", "h"];
+const HEIGHT: &[&str] = &["height", "length", "h", "depth"];
 const SIDES: &[&str] = &["width", "w", "height", "h", "depth", "length"];
 
 /// What is said of such a field; `None`: it is another one.
@@ -22,6 +22,9 @@ pub(super) fn of(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
         .or_else(|| geometry(unknown))
         .or_else(|| listed(unknown))
         .or_else(|| corners(unknown))
+        .or_else(|| corner(unknown))
+        .or_else(|| across_view(unknown))
+        .or_else(|| lasting(unknown))
         .or_else(|| scattered(unknown))
 }
 
@@ -330,6 +333,94 @@ fn corners(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
     }))
 }
 
+/// A box by its least corner and its sides.
+fn corner(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    const LEAST: &[&str] = &["corner", "min_corner", "lower_corner", "min"];
+    let &Unknown { def, name, item, .. } = unknown;
+    const MOST: &[&str] = &["max", "max_corner", "upper_corner", "upper", "maximum", "corner1", "corner2"];
+    let both = find(unknown, MOST).is_some();
+    if def.name != "Box" || !LEAST.contains(&name) || both || is_written(unknown, "center") {
+        return None;
+    }
+    let found = find(unknown, LEAST)?;
+    let size = item.fields().take(LOOK_AT).find(|(key, _)| key.text() == "size").map(|(_, size)| size);
+    let point = |value: Item<'_, '_>| -> Option<[f64; 3]> {
+        let all: Vec<f64> = numbers(value)?.iter().map(|number| decode::number(number)).collect();
+        all.try_into().ok().filter(|_| value.name().is_none())
+    };
+    let sides = size.and_then(|size| size.number().map(|side| [side; 3]).or_else(|| point(size)));
+    let (mended, way) = match point(found.1).zip(sides) {
+        Some((least, sides)) => {
+            let middle = [0, 1, 2].map(|k| shown(least[k] + sides[k] / 2.0));
+            let middle = elsewhere::vector(item, &middle.each_ref().map(|number| &**number));
+            let mended = Fields(item.syntax()).name("center") + &middle;
+            (Some(mended.clone()), format!("write `{mended}`, half of its `size` beyond that corner"))
+        }
+        None => (None, "a box lies about its `center`, half of its `size` beyond its least corner".to_owned()),
+    };
+    Some(told_at_first(unknown, &[found], &["center"], || (way, mended)))
+}
+
+/// How wide a view of parallel rays is: its height, by the shape of the picture.
+fn across_view(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    let &Unknown { def, name, value, item, .. } = unknown;
+    if def.name != "Orthographic" || !matches!(name, "width" | "w") || is_written(unknown, "height") {
+        return None;
+    }
+    let image = item.other(0)?.fields().take(LOOK_AT).find(|(key, _)| key.text() == "image").map(|(_, image)| image);
+    let side = |side: &str| match image {
+        Some(image) => match image.fields().find(|(key, _)| key.text() == side) {
+            Some((_, value)) => value.number(),
+            None => Some(512.0),
+        },
+        None => Some(512.0),
+    };
+    let sides = side("width").zip(side("height")).filter(|(wide, high)| *wide >= 1.0 && *high >= 1.0);
+    let reckoned = value.number().zip(sides).map(|(width, (wide, high))| {
+        let height = shown((width * high / wide * 1e6).round() / 1e6);
+        (Fields(item.syntax()).name("height") + &height, format!("{wide}x{high}"))
+    });
+    let is_height = "how much it shows is said by its `height`, which is the width times the picture's height over its \
+                     width";
+    Some(match reckoned {
+        Some((mended, size)) => told_at_first(unknown, &[(unknown.key, value)], &["height"], || {
+            (format!("write `{mended}`: in a picture of {size} pixels that is {} across", value.lexeme()), Some(mended))
+        }),
+        None => Together { hint: Some(is_height.to_owned()), edit: None, fields: vec!["height"] },
+    })
+}
+
+/// From when to when a film goes.
+fn lasting(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    const BEGIN: &[&str] = &["start", "begin", "from", "first", "start_time"];
+    const END: &[&str] = &["end", "to", "last", "stop", "end_time"];
+    let &Unknown { def, name, item, .. } = unknown;
+    if def.name != "Animation" || !BEGIN.contains(&name) && !END.contains(&name) {
+        return None;
+    }
+    if is_written(unknown, "frames") {
+        let found: Vec<Found<'_, '_>> = [BEGIN, END].iter().filter_map(|names| find(unknown, names)).collect();
+        let hint = "how long it is is said by `frames`, from 0 on: leave it out; which are rendered is said on the \
+                    command line: --frames 0-47";
+        return Some(told_at_first(unknown, &found, &["frames"], || (hint.to_owned(), None)));
+    }
+    let (begin, end) = (find(unknown, BEGIN), find(unknown, END)?);
+    let from = begin.map_or(Some(0.0), |(_, value)| value.number())?;
+    let to = end.1.number().filter(|to| *to > from)?;
+    let fps = item.fields().take(LOOK_AT).find(|(key, _)| key.text() == "fps");
+    let fps = fps.map_or(Some(24.0), |(_, fps)| fps.number())?;
+    let frames = |count: f64| format!("`{}{}`", Fields(item.syntax()).name("frames"), shown(count.round().max(1.0)));
+    let found: Vec<Found<'_, '_>> = [begin, Some(end)].into_iter().flatten().collect();
+    let seconds = shown(to - from);
+    let hint = format!(
+        "a film begins at 0: {seconds} seconds with {} frames in each are {}; if these are frames, write {}",
+        shown(fps),
+        frames((to - from) * fps),
+        frames(to - from + 1.0)
+    );
+    Some(told_at_first(unknown, &found, &["frames"], || (hint, None)))
+}
+
 /// Where copies are scattered.
 fn scattered(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
     let &Unknown { def, name, value, item, .. } = unknown;
@@ -354,25 +445,17 @@ fn scattered(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
 
 /// A repetition over values or over a range.
 fn listed(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
-    let &Unknown { def, name, value, item, .. } = unknown;
+    let &Unknown { def, name, item, .. } = unknown;
     if def.name != "Repeat" {
         return None;
     }
-    let fields = Fields(item.syntax());
-    if matches!(name, "values" | "over" | "in" | "each" | "array") && value.kind() == Kind::List {
-        let of_index = |(key, _): &Found<'_, '_>| matches!(&*key.text(), "index" | "name" | "var" | "variable" | "as");
-        let index = item.fields().take(LOOK_AT).find(of_index).filter(|(_, index)| index.kind() == Kind::Text);
-        let called = index.map_or("v".into(), |(_, index)| index.text());
-        let (count, list) = (value.children().count(), shortened(value.lexeme()));
-        let vars = match item.syntax() {
-            Syntax::Ron => format!("{{ \"{called}\": Pick(from: {list}, index: \"=i\") }}"),
-            syntax => syntax
-                .of_toml(format!("{{ {called} = {{ Pick = {{ from = {list}, index = \"=i\" }} }} }}"))
-                .into_owned(),
-        };
-        let in_place = if index.is_some() { ", and no `index`" } else { "" };
-        let hint = format!("write `{}{count}, {}{vars}`{in_place}", fields.name("count"), fields.name("vars"));
-        return Some(Together { hint: Some(hint), edit: None, fields: vec!["count", "vars"] });
+    if let Some(told) = over_values(unknown) {
+        return Some(told);
+    }
+    if name == "for" && !is_written(unknown, "count") {
+        let often = if unknown.value.number().is_some() { unknown.value.lexeme() } else { "8" };
+        let hint = format!("how often it goes is `{}{often}`", Fields(item.syntax()).name("count"));
+        return Some(Together { hint: Some(hint), edit: None, fields: vec!["count"] });
     }
     if !matches!(name, "from" | "to" | "start" | "end" | "first" | "last" | "step" | "by" | "range" | "min" | "max") {
         return None;
@@ -382,4 +465,82 @@ fn listed(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
     let told = |(key, _): &Found<'_, '_>| matches!(&*key.text(), "from" | "start" | "first" | "range" | "min");
     let found: Vec<Found<'_, '_>> = item.fields().take(LOOK_AT).filter(told).collect();
     Some(told_at_first(unknown, &found, &["count"], || (hint.to_owned(), None)))
+}
+
+/// What a list to go through is called elsewhere.
+const LISTS: &[&str] = &[
+    "values", "over", "in", "each", "array", "list", "for_each", "foreach", "iterate", "iterable", "data", "of",
+    "sequence",
+];
+/// What the item of such a list is called by.
+const CALLED: &[&str] = &["as", "for", "var", "variable", "item", "name", "let", "each_as", "element"];
+
+/// A repetition over the items of a list: how often, and the item by its name.
+fn over_values(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
+    let &Unknown { name, item, .. } = unknown;
+    let list = find(unknown, LISTS).or_else(|| find(unknown, &["for"]))?;
+    let is_list = |(_, value): &Found<'_, '_>| value.kind() == Kind::List || body_of(*value).is_some();
+    // `Repeat(count: 3, list: [Sphere(..)])` is another word for its items.
+    let of_items = list.0.text() == "list" && !is_written(unknown, "items");
+    if !LISTS.contains(&name) && !CALLED.contains(&name) || of_items || !is_list(&list) {
+        return None;
+    }
+    let text_of = |(_, value): &Found<'_, '_>| matches!(value.kind(), Kind::Text | Kind::Word | Kind::Char);
+    let called = find(unknown, CALLED).filter(|(key, _)| key.index() != list.0.index()).filter(text_of);
+    let index = item.fields().take(LOOK_AT).find(|(key, _)| key.text() == "index").filter(text_of);
+    // Without another name for the item the index is meant as one, where values themselves are written.
+    let of_index = index.filter(|_| called.is_none() && list.1.kind() == Kind::List);
+    let word = called.or(of_index).map_or("v".into(), |(_, word)| word.text());
+    let counts = index.filter(|_| of_index.is_none()).map_or("i".into(), |(_, word)| word.text());
+    let syntax = item.syntax();
+    let write = |field: &str, value: &str| format!("{}{value}", Fields(syntax).name(field));
+    let with = |count: &str, ron: &str, toml: &str| {
+        let (inner, braced) = match syntax {
+            Syntax::Ron => (format!("\"{word}\": {ron}"), format!("{{ \"{word}\": {ron} }}")),
+            syntax => {
+                let inner = syntax.of_toml(format!("{word} = {toml}")).into_owned();
+                (inner, syntax.of_toml(format!("{{ {word} = {toml} }}")).into_owned())
+            }
+        };
+        match (is_written(unknown, "count"), is_written(unknown, "vars")) {
+            (false, false) => format!("{}, {}", write("count", count), write("vars", &braced)),
+            (true, false) => write("vars", &braced),
+            (false, true) => format!("{}`, and into its `vars` `{inner}", write("count", count)),
+            (true, true) => inner,
+        }
+    };
+    let way = |lexeme: &str| match body_of(list.1) {
+        Some(body) => {
+            let each = format!("\"={body}[{counts}]\"");
+            with(&format!("\"=len({body})\""), &each, &each)
+        }
+        None => {
+            let count = list.1.children().count().to_string();
+            let ron = format!("Pick(from: {lexeme}, index: \"={counts}\")");
+            with(&count, &ron, &format!("{{ Pick = {{ from = {lexeme}, index = \"={counts}\" }} }}"))
+        }
+    };
+    let found: Vec<Found<'_, '_>> = [Some(list), called].into_iter().flatten().collect();
+    let free = !is_written(unknown, "count") && !is_written(unknown, "vars");
+    Some(told_at_first(unknown, &found, &["count", "vars"], || {
+        let more = match (of_index, called) {
+            (Some(_), _) => ", and no `index`".to_owned(),
+            (_, None) => format!(": in its items \"={word}\" is one of them"),
+            _ => String::new(),
+        };
+        let hint = format!("write `{}`{more}", way(&shortened(list.1.lexeme())));
+        // What the items within call it is known where it has a name.
+        (hint, (free && called.is_some()).then(|| way(list.1.lexeme())))
+    }))
+}
+
+/// The name of a list of `vars` that stands for a list, with its sign or without.
+fn body_of(value: Item<'_, '_>) -> Option<String> {
+    let text = value.text();
+    let name = match value.kind() {
+        Kind::Text => text.trim().trim_start_matches('=').trim(),
+        Kind::Word => &text,
+        _ => return None,
+    };
+    crate::expression::is_name(name).then(|| name.to_owned())
 }

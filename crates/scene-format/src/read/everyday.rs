@@ -1,7 +1,8 @@
 //! Words of every day and of other programs, for those who ask by themselves what there is.
 
 use super::hints::{field_of_others, kind_elsewhere, other_kind};
-use super::of_kinds::of_another_list;
+use super::of_fields::SHADOW_CATCHER;
+use super::of_kinds::{LETTERS, of_another_list};
 use super::synonyms::called_elsewhere;
 use crate::desc::{Camera, Effects, Layer, Light, Material, Object, Scene, Sphere, Transform};
 use crate::schema::{EnumDef, StructDef, Type};
@@ -124,11 +125,7 @@ const WORDS: &[(&[&str], &str)] = &[
         &["thumbnail", "thumbnails", "contact sheet", "small picture"],
         "a small picture is quickly made by `tracer render scene.ron --size 160x120 --samples 16 -o small.png`",
     ),
-    (
-        &["shadow catcher", "shadow_catcher", "shadowcatcher", "catch shadows"],
-        "there is none: render with and without the body before the same floor, and let another program divide the \
-         pictures",
-    ),
+    (&["shadow catcher", "shadow_catcher", "shadowcatcher", "catch shadows"], SHADOW_CATCHER),
     (
         &["ray", "rays", "light ray", "light rays", "ray tracing"],
         "rays of light are not drawn: a ray in a figure is an Arrow or a thin Cylinder; how often light is turned is \
@@ -291,8 +288,8 @@ const WORDS: &[(&[&str], &str)] = &[
         "many of one thing are its `placements: Scatter(..)`, or a `Repeat`; what grows is a Mesh, a Cone or a Tube",
     ),
     (
-        &["letters", "font", "word", "writing", "label", "title"],
-        "letters are a mesh of another program, or an Extrude of their outlines; a picture of them is a Texture",
+        &["letters", "letter", "font", "word", "writing", "title", "labels", "text", "label", "caption", "annotation"],
+        LETTERS,
     ),
     (
         &["rough", "gloss", "polished", "matte", "matt", "dull"],

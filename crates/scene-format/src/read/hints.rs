@@ -164,6 +164,7 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Orthographic", &["ortho", "parallel", "telecentric", "isometric", "axonometric", "orthographiccamera"]),
         ("Group", &["node", "collection", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
+        ("ThinLens", &["depthoffield", "dof", "bokeh", "lens", "thin"]),
         ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
         ("Noise", &["turbulence", "fractalnoise", "perlinnoise", "spotted", "bumps", "simplex", "whitenoise"]),
         ("Lines", &["grid", "stripes", "gridtexture", "tiles", "stripe"]),
@@ -314,36 +315,6 @@ const MAPPINGS: Hints = &[
     ),
 ];
 
-/// What is said of fields for the brightness of a light that there are not.
-pub(super) fn strength(name: &str, def: &'static StructDef) -> Option<&'static str> {
-    if !def.exactly_one.contains(&"radiance") {
-        return None;
-    }
-    match name.to_ascii_lowercase().as_str() {
-        "colour" | "rgb" | "tint" => {
-            Some("a light's colour is `color`, or in its amount, per channel: `radiance: (3, 2, 1)`")
-        }
-        "texture" | "map" | "image" | "picture" | "pattern" | "emission_map" | "emissive_map" | "map_ke"
-        | "filename"
-            if def.name == "Emissive" =>
-        {
-            Some("a texture stands in `color`: radiance: 5, color: Texture(file: \"screen.png\")")
-        }
-        "temperature" | "kelvin" | "blackbody" | "color_temperature" | "t" => {
-            Some("a light as white as a black body of 2700 K has `color: \"=blackbody(2700)\"`")
-        }
-        "brightness" | "strength" | "energy" | "emission" | "scale" | "exposure" | "ke" | "l" | "le" | "emissive"
-        | "irradiance" | "illuminance" => {
-            Some("how bright it is is said by `radiance`, `power` in W, `intensity` in W/sr, or `luminous_power` in lm")
-        }
-        "candela" | "candelas" | "cd" => Some("candela are said by `luminous_intensity`"),
-        "nits" | "nit" => Some("nits, cd/m^2, are said by `luminance`"),
-        "watts" | "watt" | "flux" => Some("the light that is given in all is `power`, in W"),
-        "lumens" | "lumen" | "lm" => Some("lumens are said by `luminous_power`"),
-        _ => None,
-    }
-}
-
 /// What is said of options of the command line that are taken for fields of the scene.
 pub(crate) fn command_line(name: &str, def: &'static StructDef) -> Option<&'static str> {
     if def.name != "Scene" && Scene::DEF.fields.iter().all(|field| !is_group(field, def)) {
@@ -450,10 +421,16 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         {
             "there is one sampler, and only `samples` of `render` says how many samples a pixel gets"
         }
-        "filter" | "pixel_filter" | "reconstruction_filter" | "rfilter" | "aa" | "antialias" | "antialiasing"
+        "filter" | "pixel_filter" | "reconstruction_filter" | "rfilter"
             if has("max_bounces") || def.name == "Image" || def.name == "Scene" =>
         {
             "how samples become pixels is said by `effects: Effects(antialiasing: Gaussian(sigma: 0.5))`"
+        }
+        "aa" | "antialias" | "antialiasing" | "anti_aliasing" | "msaa"
+            if has("max_bounces") || matches!(def.name, "Image" | "Scene" | "Camera" | "Output") =>
+        {
+            "edges are smooth without it: leave it out; how samples become pixels is said by `effects: \
+             Effects(antialiasing: Gaussian(sigma: 0.5))`"
         }
         "format" | "filename" | "filepath" | "path" | "bits" | "gamma" | "dpi" | "file" | "output"
             if def.name == "Image" || def.name == "Output" =>
@@ -473,7 +450,7 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         "quality" | "preset" if has("max_bounces") => {
             "how good it is is said by `samples: 256`, or by the noise that may be left: `noise: 0.02`"
         }
-        "falloff" | "decay" | "attenuation" | "cast_shadows" | "castshadow" if has("radiance") => {
+        "falloff" | "decay" | "attenuation" if has("radiance") => {
             "light falls off with the square of the distance, as it does: leave it out"
         }
         "finish" | "shininess" | "specular" | "phong" | "reflection" | "gloss" if has("material") => {

@@ -83,6 +83,7 @@ fn with_values(kind: &str, def: &'static StructDef, inner: Item<'_, '_>) -> (Vec
         let of_file = def.exactly_one.iter().find(|name| **name == "file");
         let (field, value) = match kind {
             "Emissive" => ("radiance", "5"),
+            "ThinLens" => ("focus_distance", "5"),
             _ => (*of_file.or(def.exactly_one.last()).unwrap_or(&""), ".."),
         };
         values.push((field, value.to_owned()));
@@ -127,7 +128,7 @@ fn of_sides(kind: &str, inner: Item<'_, '_>) -> Option<String> {
 fn usual(kind: &str, field: &str) -> &'static str {
     match (kind, field) {
         ("BlinnPhong", "exponent") => "1000",
-        ("BlinnPhong", "specular") | ("SphereLight", "radius") => "0.1",
+        ("BlinnPhong", "specular") | ("SphereLight", "radius") | ("ThinLens", "aperture") => "0.1",
         _ => "..",
     }
 }

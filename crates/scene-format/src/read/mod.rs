@@ -23,6 +23,7 @@ mod materials;
 mod nameless;
 mod of_fields;
 mod of_kinds;
+mod of_lights;
 mod outlines;
 mod part;
 mod pattern_fields;
@@ -568,6 +569,8 @@ impl<'r> Reader<'r> {
                 format!("write {}", hinted(&replacement))
             };
             fault.edit = Some(Edit { span: item.span(), replacement });
+        } else if let Some(way) = told::of_value(item, noun) {
+            fault.hint = way;
         }
         self.report(fault);
         None

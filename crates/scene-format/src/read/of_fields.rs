@@ -2,6 +2,10 @@
 
 use crate::schema::StructDef;
 
+/// What is said of things that show nothing but shadows.
+pub(super) const SHADOW_CATCHER: &str = "there is no shadow catcher: render with and without the body before the \
+                                         same floor, and let another program divide the pictures";
+
 /// How it is said here.
 // Long: a table.
 pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static str> {
@@ -44,6 +48,28 @@ pub(super) fn elsewhere(lower: &str, def: &'static StructDef) -> Option<&'static
         "rough" if def.name == "Conductor" => "how rough a metal is is its `roughness`",
         "alpha" | "alpha_x" | "alpha_y" if def.name == "Conductor" => "`roughness` is the root of alpha: 0.3 for 0.09",
         "anisotropy" | "anisotropic" if def.name == "Conductor" => "metal is as rough in all directions: `roughness`",
+        "cast_shadow" | "cast_shadows" | "casts_shadows" | "castshadow" | "shadow" | "shadows" | "no_shadow"
+            if has("radiance") =>
+        {
+            "all that is lit throws shadows, and no lamp does without: leave it out; soft ones come of a large \
+             `radius` or a large shape that shines, and hardly any of a `background`"
+        }
+        "transmission" | "transmittance" | "translucency" | "translucent" | "subsurface" | "diffuse_transmission"
+            if has("albedo") =>
+        {
+            "no light goes through it: what lets light through is Transparent(ior: 1.5); a lampshade that glows may \
+             shine a little itself, Emissive(radiance: 0.2, color: (1, 0.8, 0.6))"
+        }
+        "two_sided" | "double_sided" | "doublesided" | "twosided" | "side"
+            if !has("two_sided") && (has("albedo") || has("reflectance") || has("ior")) =>
+        {
+            "all surfaces have two sides and look alike from both: leave it out"
+        }
+        "shadow_catcher" | "shadowcatcher" | "is_shadow_catcher" | "catch_shadows" | "shadow_only"
+            if has("material") || has("albedo") =>
+        {
+            SHADOW_CATCHER
+        }
         "mask" | "normaltexture" | "opacity_mask" if has("albedo") || has("material") => {
             "surfaces have no masks and no bumps: what is not there is left out of the mesh"
         }

@@ -1,9 +1,16 @@
 //! Kinds of other programs that are something else here: a material among the objects, a sky among the lights.
 
 use super::hints::{Hints, kind_elsewhere};
+use super::of_fields::SHADOW_CATCHER;
 use super::synonyms::squeezed;
 use crate::desc::{Material, Object, PatternWords, is_texture};
 use crate::schema::EnumDef;
+
+/// What is said of writing, which may be meant over the picture or in the scene.
+pub(super) const LETTERS: &str = "letters over the picture are written by another program: `output: Output(marks: { \
+                                  \"A\": (0, 1, 0) })` tells in the report where each point is seen; letters in the \
+                                  scene are a Mesh of another program, an Extrude of their outlines, or a picture of \
+                                  them, Texture(file: \"a.png\") on a Rectangle";
 
 /// Objects of other programs.
 pub(super) const OBJECTS: Hints = &[
@@ -46,11 +53,7 @@ pub(super) const OBJECTS: Hints = &[
         "a curve is a `Tube` with `curve: Bezier`; of patches make a mesh, in OBJ, OFF, PLY, STL, glTF or GLB, and \
          name its file in a `Mesh`",
     ),
-    (
-        &["text", "label", "caption", "annotation"],
-        "letters are written over the picture: `output: Output(marks: { \"A\": (0, 1, 0) })` tells in the report where \
-         each point is seen; or name a mesh of them in a `Mesh`",
-    ),
+    (&["text", "label", "caption", "annotation", "letters", "letter", "title", "font"], LETTERS),
     (
         &["nurbs", "teapot", "bunny", "dragon", "suzanne", "monkey"],
         "there is no such shape yet: make a mesh of it, in OBJ, OFF, PLY, STL, glTF or GLB, and name its file in a \
@@ -98,6 +101,18 @@ pub(super) const OBJECTS: Hints = &[
     ),
     (&["bevel", "roundedbox", "roundbox", "chamfer"], "edges are rounded by `Box(size: 1, rounding: 0.1)`"),
     (&["empty", "null"], "what only holds others is a `Group(objects: [..])`; a point needs no object"),
+    (&["shadowcatcher", "shadowmatte"], SHADOW_CATCHER),
+    (
+        &["dimension", "dimensionline", "measure", "measurement", "scalebar", "ruler"],
+        "a dimension line is two Arrows that meet in its middle: Arrow(from: (0.5, 0, 0), to: (0, 0, 0), radius: \
+         0.01), Arrow(from: (0.5, 0, 0), to: (1, 0, 0), radius: 0.01); its number is written over the picture, where \
+         `output: Output(marks: { \"L\": (0.5, 0, 0) })` tells",
+    ),
+    (
+        &["cloth", "fabric", "drape", "curtain", "flag", "softbody"],
+        "nothing falls or bends here: cloth is a mesh that another program has draped, Mesh(file: \"cloth.obj\"); its \
+         material is Diffuse(..)",
+    ),
     (&["line", "lines", "segment", "polyline"], "a line has a thickness: `Tube(points: [..], radius: 0.02)`"),
     (&["point"], "a point is a small `Sphere`; a light without size is a small `SphereLight`"),
     (&["camera"], "the camera is the scene's `camera`, beside `objects`"),
@@ -156,6 +171,12 @@ pub(super) const MATERIALS: Hints = &[
         &["toon", "cel", "celshading", "wireframe", "wire", "outline", "sketch", "cartoon"],
         "materials are surfaces, drawing styles are not: the layers `object_id`, `normal` and `depth` of an EXR tell \
          another program where edges are",
+    ),
+    (&["shadowcatcher", "shadowmatte", "shadowmaterial"], SHADOW_CATCHER),
+    (
+        &["unlit", "shadeless", "fullbright", "meshbasicmaterial", "flatcolor", "constant"],
+        "what looks the same in any light shines by itself, and lights others: Emissive(radiance: 1, color: (0.8, 0.2, \
+         0.1)), as bright as that colour",
     ),
     (&["pigment", "color", "rgb"], "a colour is the `albedo` of a material: Diffuse(albedo: (0.8, 0.2, 0.1))"),
     (&["null", "none", "invisible"], "leave the object out"),
@@ -317,7 +338,7 @@ const AMONG_OBJECTS: Hints = &[
         super::figures::HEIGHTS_ARE,
     ),
     (
-        &["helix", "spring", "spiral", "coil"],
+        &["helix", "spring", "spiral", "coil", "screw", "thread", "screwthread", "helicoid"],
         "a coil is a Tube through points that a Repeat makes: Tube(points: [Repeat(count: 60, items: [(\"=cos(30*i)\", \
          \"=0.05*i\", \"=sin(30*i)\")])], radius: 0.05)",
     ),
@@ -462,6 +483,12 @@ const PROJECTIONS: Hints = &[(
     "blur by depth is an effect: `effects: Effects(depth_of_field: ThinLens(aperture: 0.1, focus_distance: 5))`",
 )];
 
+const LENSES: Hints = &[(
+    &["thinlens", "lens", "dof", "depthoffield", "bokeh", "thin", "camera", "physical", "realistic"],
+    "its aperture is the diameter of the lens in the scene's unit, the focal length over the f-number: of 50 mm at \
+     f/2.8 it is 0.018 m",
+)];
+
 const STEREO: Hints = &[
     (
         &["sidebyside", "sbs", "leftright", "horizontal", "parallel", "stereoscopic", "true", "on"],
@@ -484,6 +511,7 @@ pub(super) fn elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static st
         "tone map" => TONE_MAPS,
         "stereo" => STEREO,
         "projection" => PROJECTIONS,
+        "lens" => LENSES,
         _ => return None,
     };
     let found = rows.iter().find(|(names, _)| names.contains(&&*plain)).map(|(_, way)| *way);
@@ -501,7 +529,7 @@ pub(super) fn of_another_list(name: &str, def: &'static EnumDef) -> Option<&'sta
         // Of lights themselves.
         "light" if kind_elsewhere(name, def).is_some() => None,
         "object" if texture() && kind_elsewhere(name, def).is_none() => {
-            Some("that is a texture, which a material has: Box(size: 1, material: Diffuse(albedo: Checkerboard()))")
+            Some("that is a texture, which a material has: Plane(material: Diffuse(albedo: Checkerboard()))")
         }
         "object" if is_of(&Material::DEF) => {
             Some("that is a material, which an object has: `Sphere(center: .., radius: .., material: ..)`")

@@ -48,6 +48,13 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
     let side = matches!(name, "height" | "width" | "depth" | "length" | "thickness");
     Some(match (name, def.name) {
         (name, "Box") if ROUND.contains(&name) => "the radius of its edges and corners is its `rounding`",
+        (name, "Cylinder" | "Cone") if ROUND.contains(&name) && ron => {
+            "its section is the profile of a `Lathe`, here with edges cut by 0.1: Lathe(profile: [(0, 0), (0.9, 0), \
+             (1, 0.1), (1, 1.9), (0.9, 2), (0, 2)])"
+        }
+        (name, "Cylinder" | "Cone") if ROUND.contains(&name) => {
+            "its section is the `profile` of a `Lathe`, from below to above, with the edge cut off"
+        }
         (name, _) if ROUND.contains(&name) => {
             "only a `Box` has round ones: make a mesh of it elsewhere, and name its file in a `Mesh`"
         }

@@ -201,11 +201,28 @@ const SYNONYMS: &[(&str, &[&str])] = &[
 
 /// The two radii of a torus are told apart by small and large letters alone.
 const OF_TORUS: &[(&str, &[&str])] = &[
-    ("radius", &["R", "major", "major_radius", "ring_radius", "radius_major", "main_radius"]),
+    ("radius", &["R", "r1", "radius1", "major", "major_radius", "ring_radius", "radius_major", "main_radius"]),
     (
         "tube_radius",
-        &["r", "minor", "minor_radius", "tube", "radius_minor", "section_radius", "thickness_radius", "thickness"],
+        &[
+            "r",
+            "r2",
+            "radius2",
+            "minor",
+            "minor_radius",
+            "tube",
+            "radius_minor",
+            "section_radius",
+            "thickness_radius",
+            "thickness",
+        ],
     ),
+];
+
+/// The two radii of a cone, by its ends.
+const OF_CONE: &[(&str, &[&str])] = &[
+    ("radius", &["radius_from", "r1", "radius_a", "radius_bottom", "radius_base", "radius_start", "start_radius"]),
+    ("tip_radius", &["radius_to", "r2", "radius_b", "radius_tip", "radius_end", "radius_apex"]),
 ];
 
 /// A word without what programs join words by: `lookAt`, `look_at` and `lookat` are one.
@@ -227,7 +244,12 @@ pub(super) fn called_elsewhere(name: &str) -> Vec<&'static str> {
 /// What other programs call a field of ours by this name, the most likely first.
 pub(crate) fn synonyms(name: &str, def: &'static StructDef) -> Vec<&'static str> {
     let torus = def.name == "Torus";
-    let of_torus = OF_TORUS.iter().filter(|(_, others)| torus && others.contains(&name));
+    let own: &[(&str, &[&str])] = match def.name {
+        "Torus" => OF_TORUS,
+        "Cone" => OF_CONE,
+        _ => &[],
+    };
+    let own = own.iter().filter(|(_, others)| others.contains(&name));
     let plain = squeezed(name);
     // `Instances` is our own word in other letters, not one of those that mean `placements`.
     if let Some(own) = def.fields.iter().find(|field| squeezed(field.name) == plain) {
@@ -236,5 +258,5 @@ pub(crate) fn synonyms(name: &str, def: &'static StructDef) -> Vec<&'static str>
     let ambiguous = torus && matches!(&*plain, "r" | "outer" | "outerradius" | "inner" | "innerradius");
     let same = |others: &[&str]| others.iter().any(|other| squeezed(other) == plain);
     let all = SYNONYMS.iter().filter(|(field, others)| !ambiguous && def.field(field).is_some() && same(others));
-    of_torus.chain(all).map(|(field, _)| *field).collect()
+    own.chain(all).map(|(field, _)| *field).collect()
 }

@@ -89,6 +89,13 @@ const ROWS: &[Row] = &[
     ("Lines", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
     ("Dots", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
     ("Texture", UV_SCALES, &["mapping"], UV_SCALE, uv_scale),
+    (
+        "Cone",
+        &[&["radius0", "radius_0", "r0"], &["radius1", "radius_1", "r1"]],
+        &["radius", "tip_radius"],
+        ["radius: .., tip_radius: ..", "radius = .., tip_radius = .."],
+        two_radii,
+    ),
     ("Polygon", &[A, B, C, &["d", "p3", "v3"]], &["points"], POINTS, points),
     ("Polygon", &[A, B, C], &["points"], POINTS, points),
     ("Polygon", &[&["p1", "v1"], &["p2", "v2"], &["p3", "v3"], &["p4", "v4"]], &["points"], POINTS, points),
@@ -283,6 +290,13 @@ fn two_colors(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
     let [a, b] = values else { return None };
     let name = |field: &str| Fields(syntax).name(field);
     Some(format!("{}{}, {}{}", name("a"), a.lexeme(), name("b"), b.lexeme()))
+}
+
+/// Those of the two ends of a cone.
+fn two_radii(values: &[Item<'_, '_>], syntax: Syntax) -> Option<String> {
+    let [radius, tip] = values else { return None };
+    let name = |field: &str| Fields(syntax).name(field);
+    Some(format!("{}{}, {}{}", name("radius"), radius.lexeme(), name("tip_radius"), tip.lexeme()))
 }
 
 /// How often a texture lies along each side.

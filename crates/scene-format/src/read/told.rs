@@ -1,6 +1,6 @@
 //! Values and names in words, for messages.
 
-use super::names;
+use super::{is_picture, names};
 use crate::desc::{Material, Object, SphereLight};
 use crate::schema::StructDef;
 use crate::suggest;
@@ -37,6 +37,30 @@ pub(crate) fn describe(item: Item<'_, '_>) -> String {
         // The rest is syntax that readers do not see.
         _ => "this".to_owned(),
     }
+}
+
+/// What is said of a value that other programs write where another stands here.
+pub(super) fn of_value(item: Item<'_, '_>, noun: &str) -> Option<String> {
+    const KEYS: [&str; 8] =
+        ["keyframes", "keyframe", "keys", "animated", "animate", "animation", "track", "animationtrack"];
+    let name = item.name().map(str::to_ascii_lowercase);
+    if name.is_some_and(|name| KEYS.contains(&&*name)) {
+        let values = if noun.contains("center") || noun.contains("position") || noun.contains("point") {
+            ["(0, 0, 0)", "(1, 0, 0)"]
+        } else {
+            ["1", "2"]
+        };
+        let [first, last] = values;
+        return Some(format!(
+            "what changes stands in an expression, each time with its value: \"=keyframes(time, 0, {first}, 1, \
+             {last})\""
+        ));
+    }
+    let picture =
+        (noun == "the image" && item.kind() == Kind::Text).then(|| item.text()).filter(|name| is_picture(name));
+    picture.map(|name| {
+        format!("where it is written is said on the command line: tracer render scene.ron -o {}", shortened(&name))
+    })
 }
 
 /// So many characters of something long are shown.

@@ -4,10 +4,10 @@ use super::elsewhere::{Fields, axis, degrees, fields_named, matrix_rows, numbers
 use super::synonyms::synonyms;
 use super::together::{Together, in_place_of};
 use super::unknown::Unknown;
-use super::{LOOK_AT, Reader, is_expression};
+use super::{LOOK_AT, Reader, hinted, is_expression};
 use crate::codes;
-use crate::desc::TransformWords;
 use crate::desc::matrix::unnamed_rows;
+use crate::desc::{PlacementPattern, TransformWords};
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::schema::{FieldDef, StructDef};
 use crate::syntax::{Syntax, decode};
@@ -53,6 +53,35 @@ impl Reader<'_> {
             Some(Doubt::Part) => format!("one step turns about one axis, as in {mended}"),
         };
         fault.edit = steps.doubt.is_none().then(|| Edit { span: item.span(), replacement: mended });
+        self.report(fault);
+        true
+    }
+
+    /// A rule for copies in the brackets of a list, `[Ring(count: 6, radius: 2)]`: told once, with the rule alone.
+    pub(crate) fn pattern_in_brackets(&mut self, item: Item<'_, '_>, at: &'static FieldDef) -> bool {
+        let is_pattern = |child: &Item<'_, '_>| {
+            kind_and_body(*child).is_some_and(|(name, _)| PlacementPattern::DEF.variant(&name).is_some())
+        };
+        // What stands under a header of TOML has no brackets that could be left out.
+        let is_header = item.syntax() == Syntax::Toml && !item.lexeme().ends_with(']')
+            || item.lexeme().strip_prefix("[[").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()));
+        let mut children = item.children();
+        let Some(first) = children.next().filter(|_| !is_header) else { return false };
+        // Two pairs of brackets: a placement is a list, too.
+        let within = || first.children().next().filter(|_| first.kind() == Kind::List && first.children().count() == 1);
+        let Some(pattern) = Some(first).filter(is_pattern).or_else(|| within().filter(is_pattern)) else {
+            return false;
+        };
+        let message = format!("{} are a rule alone, or a list of lists of transforms", super::plain(at.noun));
+        let mut fault = Diagnostic::error(codes::WRONG_TYPE, item.head(), message);
+        let alone = Fields(item.syntax()).name(at.name) + pattern.lexeme();
+        fault.expected = alone.clone();
+        if children.next().is_some() {
+            fault.hint = format!("one rule stands alone, `{}`; each other has an object of its own", hinted(&alone));
+        } else {
+            fault.hint = format!("write `{}`, without the brackets", hinted(&alone));
+            fault.edit = Some(Edit { span: item.span(), replacement: pattern.lexeme().to_owned() });
+        }
         self.report(fault);
         true
     }

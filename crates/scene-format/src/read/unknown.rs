@@ -2,6 +2,7 @@
 
 use super::elsewhere::{self, Fields};
 use super::hints::{self, field_of_others, other_way, right_place};
+use super::of_lights;
 use super::pattern_fields::is_mapping;
 use super::synonyms::synonyms;
 use super::transforms_elsewhere;
@@ -121,7 +122,9 @@ impl Reader<'_> {
     fn unknown_field(&mut self, unknown: &Unknown<'_, '_, '_>, mistyped: &Mistyped<'_, '_>) -> Meant {
         let &Unknown { key, value, name, item, def } = unknown;
         let is_mapped = pattern_fields::of_mapping(name, value, item, def).is_some() || is_mapping(def);
-        if RESERVED.contains(&name) && !(name == "repeat" && is_mapped) {
+        // A repetition over a list is told with what it is here.
+        let is_loop = def.name == "Repeat" && matches!(name, "for" | "let");
+        if RESERVED.contains(&name) && !(name == "repeat" && is_mapped) && !is_loop {
             self.report(reserved(name, key.span(), def));
             return Meant::Nothing;
         }
@@ -153,7 +156,7 @@ impl Reader<'_> {
             self.report(fault);
             return Meant::Nothing;
         }
-        if let Some(of_light) = hints::strength(name, def) {
+        if let Some(of_light) = of_lights::strength(name, def) {
             self.report(fault.hint(of_light));
             // Whatever it stands for: that there is none need not be said too.
             return Meant::Unreadable(def.exactly_one.to_vec());

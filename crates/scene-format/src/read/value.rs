@@ -335,6 +335,10 @@ impl Reader<'_> {
             fault.hint = format!("{} turns it off", none(item.syntax()));
             fault.edit = Some(Edit { span: item.span(), replacement: none(item.syntax()).to_owned() });
         }
+        if at.name == "shutter" && value > 1.0 && value <= 360.0 {
+            let share = format!("{}", (value / 360.0 * 1e4).round() / 1e4);
+            fault.hint = format!("it is a share of a frame: {value} degrees are {share}");
+        }
         if value == 0.0 && at.noun == "the radius of a sphere light" {
             fault.hint = "a light without size is a small sphere: radius: 0.1".to_owned();
         }
@@ -348,6 +352,9 @@ impl Reader<'_> {
                 }
                 syntax => syntax.of_toml(way).into_owned(),
             };
+        }
+        if let (codes::NOT_POSITIVE, Some(way)) = (code, self.never_zero(item)) {
+            fault.hint = way;
         }
         self.report(fault);
         None

@@ -166,6 +166,8 @@ impl Reader<'_> {
         if item.kind() == Kind::Bool && item.lexeme() == "false" && def.variant("None").is_some() {
             fault.hint = format!("write {}", super::none(item.syntax()));
             fault.edit = Some(Edit { span: item.span(), replacement: super::none(item.syntax()).to_owned() });
+        } else if item.kind() == Kind::Bool && def.noun == "pixel filter" {
+            fault.hint = "leave it out: edges are smooth without it".to_owned();
         } else if matches!(item.kind(), Kind::Map) && item.fields().next().is_none() && def.noun == "object" {
             fault.message = "these braces are empty: an object is a kind with its fields".to_owned();
             fault.hint = "write Sphere(center: (0, 0, 0), radius: 1), say".to_owned();
@@ -442,10 +444,17 @@ impl Reader<'_> {
 /// A kind with the fields that it needs, and whether these are all there; `None`: it takes a value.
 fn alone(variant: &VariantDef, syntax: Syntax) -> Option<(String, bool)> {
     let Content::Struct(def) = variant.content else { return None };
-    let needed: Vec<&str> = def.fields.iter().filter(|field| field.default.is_none()).map(|field| field.name).collect();
-    // How high the picture is nobody knows; what is written is to be seen.
-    let value = |field: &str| if (variant.name, field) == ("Orthographic", "height") { "8" } else { ".." };
     let name = variant.name;
+    let mut needed: Vec<&str> =
+        def.fields.iter().filter(|field| field.default.is_none()).map(|field| field.name).collect();
+    needed.extend(def.exactly_one.first().filter(|_| name == "ThinLens"));
+    // How high the picture is nobody knows; what is written is to be seen.
+    let value = |field: &str| match (name, field) {
+        ("Orthographic", "height") => "8",
+        ("ThinLens", "aperture") => "0.1",
+        ("ThinLens", _) => "5",
+        _ => "..",
+    };
     let join = |between: &str| {
         needed.iter().map(|field| format!("{field}{between}{}", value(field))).collect::<Vec<_>>().join(", ")
     };

@@ -19,6 +19,9 @@ const AXES: [&str; 3] = ["the x coordinate", "the y coordinate", "the z coordina
 /// Names of the three numbers of a colour.
 const CHANNELS: [&str; 3] = ["the red channel", "the green channel", "the blue channel"];
 
+/// What is said of a long expression that comes to 0 or less.
+const ABOVE_ZERO: &str = "write \"=max(.., 0.001)\" around the expression, which stays above 0";
+
 /// Whether a texture is written here.
 fn is_of_texture(item: Item<'_, '_>) -> bool {
     let of_map = || item.kind() == Kind::Map && item.fields().next().is_some_and(|(key, _)| is_texture(&key.text()));
@@ -236,6 +239,21 @@ impl Reader<'_> {
         }
         let number = self.number(item, at)?;
         Some([self.check(number, item, at, "")?; N])
+    }
+
+    /// What keeps an expression above zero; `None` where the value is none of an expression.
+    pub(super) fn never_zero(&mut self, item: Item<'_, '_>) -> Option<String> {
+        let is_item = self.vars.element.as_ref().is_some_and(|(of, _)| *of == item.index() as u32);
+        if is_item || !super::is_expression(item) {
+            return None;
+        }
+        if self.expression(item)??.numbers().is_empty() {
+            return None;
+        }
+        let text = item.text();
+        let body = text.trim_start_matches('=').trim();
+        let short = body.chars().count() <= super::SHOWN;
+        Some(if short { format!("write \"=max({body}, 0.001)\", which stays above 0") } else { ABOVE_ZERO.to_owned() })
     }
 
     /// A factor per axis, or one for all; none may be zero.

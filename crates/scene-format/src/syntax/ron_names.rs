@@ -205,6 +205,19 @@ impl Parser<'_> {
             fault.hint = format!("write `{replacement}` before the first value");
             fault.edit = Some(Edit { span: self.span(first, first), replacement });
         }
+        // Whose values without names can only be objects.
+        let kind = name.rsplit(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or_default();
+        let values = self.text[first..self.at].trim_end().trim_end_matches(',').trim_end();
+        let is_plain = !values.contains("//") && !values.contains("/*");
+        if matches!(kind, "Union" | "Intersection" | "Difference" | "Group") && values.ends_with(')') && is_plain {
+            let replacement = format!("objects: [{values}]");
+            // What is longer is not shown in part.
+            fault.hint = match replacement.len() < 120 && !replacement.contains('\n') {
+                true => format!("write `{replacement}`"),
+                false => "write `objects: [` before the values without names, and `]` behind them".to_owned(),
+            };
+            fault.edit = Some(Edit { span: self.span(first, first + values.len()), replacement });
+        }
         self.sink.push(fault);
         self.builder.leaf(Kind::Broken, self.at, self.at);
         self.skip_broken();

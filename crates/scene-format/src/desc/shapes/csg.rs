@@ -3,11 +3,12 @@
 use super::Placements;
 use crate::codes;
 use crate::desc::{Cone, Cylinder, Faulty, ITEMS, MOST_NESTED, MaterialRef, Name, Object, ShapeWords, Transform};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::diagnostic::{Diagnostic, Edit, Span, Spanned};
 use crate::files::FileKind;
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Rule, Type};
+use crate::syntax::Syntax;
 use crate::tree::{Item, Kind};
 use crate::words::{Told, Words, scene_struct};
 
@@ -37,8 +38,7 @@ impl Words for Operands {
             };
             if let kind @ ("Group" | "Include") = chosen.variant.name {
                 whole = false;
-                let what = if kind == "Group" { "a group" } else { "an include" };
-                reader.report(no_operand(child.head(), format!("{what} is no closed shape"), CLOSED));
+                reader.report(holder(kind, child));
                 return;
             }
             match Object::of_chosen(reader, &chosen) {
@@ -185,6 +185,37 @@ const CLOSED: &str = "`Sphere`, `Box`, `Cylinder` and `Cone` with caps, `Capsule
 
 fn no_operand(at: Span, message: String, expected: &str) -> Diagnostic {
     Diagnostic::error(codes::NO_OPERAND, at, message).expected(expected)
+}
+
+/// What is said of a kind that holds others and is no shape itself.
+fn holder(kind: &str, child: Item<'_, '_>) -> Diagnostic {
+    if kind != "Group" {
+        let fault = no_operand(child.head(), "an include is no closed shape".to_owned(), CLOSED);
+        return fault.hint("write its shapes here, in a `Union`");
+    }
+    let mut fault = no_operand(child.head(), "a group is no closed shape".to_owned(), CLOSED);
+    let body = match child.kind() {
+        Kind::Map => child.fields().next().map(|(_, body)| body),
+        _ => Some(child),
+    };
+    let fields = || body.into_iter().flat_map(|body| body.fields().take(8));
+    // A union turns about its own middle, and has no lights in it.
+    let is_same = fields().all(|(key, _)| matches!(&*key.text(), "objects" | "material" | "name"));
+    let turns = fields().any(|(key, _)| key.text() == "transform");
+    let of_ron = child.lexeme().strip_prefix("Group").filter(|_| child.syntax() == Syntax::Ron);
+    fault.hint = match (of_ron, child.syntax()) {
+        (Some(rest), _) if rest.len() < 100 && !rest.contains('\n') => format!("write Union{rest}"),
+        (_, Syntax::Ron) => "write Union(objects: [..])".to_owned(),
+        (_, Syntax::Toml) => "shapes that are one are a `Union`".to_owned(),
+        (_, Syntax::Json) => "write \"Union\" in place of \"Group\"".to_owned(),
+    };
+    if turns {
+        fault.hint += "; a union turns about its own middle, a group about the origin";
+    }
+    let start = child.span().start;
+    let word = Span { end: start + "Group".len() as u32, ..child.span() };
+    fault.edit = of_ron.filter(|_| is_same).map(|_| Edit { span: word, replacement: "Union".to_owned() });
+    fault
 }
 
 /// What is wrong with the shapes of a solid.

@@ -44,7 +44,7 @@ scene_struct! {
 }
 
 impl Told for Lathe {
-    const ALSO: &'static [&'static str] = &["sor", "revolve", "screw", "spin", "turned", "surfaceofrevolution"];
+    const ALSO: &'static [&'static str] = &["sor", "revolve", "spin", "turned", "surfaceofrevolution"];
     const EXAMPLE: &'static str = "Lathe(profile: [(0, -1), (0.8, -0.9), (0.4, 0), (0.7, 1)], curve: CatmullRom)";
 }
 

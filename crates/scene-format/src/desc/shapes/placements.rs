@@ -256,7 +256,7 @@ impl Words for Placements {
             }
             Kind::Text => <Spanned<Arc<Path>>>::read(reader, item, at).map(Placements::from),
             Kind::List => {
-                if reader.placements_elsewhere(item, at) {
+                if reader.pattern_in_brackets(item, at) || reader.placements_elsewhere(item, at) {
                     return None;
                 }
                 let mut list = PlacementList::default();
