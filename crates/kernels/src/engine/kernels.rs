@@ -24,6 +24,7 @@ pub struct Kernels {
     closest: unsafe fn(&SphereTable, &mut Batch),
     first_hits: unsafe fn(&Scene, u32, LayerSet, &mut Batch),
     seen: unsafe fn(&Scene, LayerSet, u32, &mut Batch),
+    lamps: unsafe fn(&Scene, &mut Batch),
     shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
     ambient: unsafe fn(&Scene, u32, f32, &mut Batch),
     occluded: unsafe fn(&SphereTable, &mut Batch),
@@ -57,6 +58,10 @@ macro_rules! kernels {
             $(#[target_feature(enable = $features)])?
             fn seen_entry(scene: &Scene, layers: LayerSet, vertex: u32, batch: &mut Batch) {
                 seen::seen::<$lanes>(scene, layers, vertex, batch)
+            }
+            $(#[target_feature(enable = $features)])?
+            fn lamps_entry(scene: &Scene, batch: &mut Batch) {
+                seen::lamps::<$lanes>(scene, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn shade_entry(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
@@ -109,6 +114,7 @@ macro_rules! kernels {
                 closest: closest_entry,
                 first_hits: first_hits_entry,
                 seen: seen_entry,
+                lamps: lamps_entry,
                 shade: shade_entry,
                 ambient: ambient_entry,
                 occluded: occluded_entry,
@@ -183,6 +189,11 @@ impl Kernels {
     pub fn seen(&self, scene: &Scene, layers: LayerSet, vertex: u32, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.seen)(scene, layers, vertex, batch) }
+    }
+    /// What the paths show of lamps, straight or over mirrors and glass only.
+    pub fn lamps(&self, scene: &Scene, batch: &mut Batch) {
+        // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
+        unsafe { (self.lamps)(scene, batch) }
     }
     /// Shades the hits of a vertex.
     pub fn shade(&self, scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {

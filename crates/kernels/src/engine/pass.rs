@@ -33,6 +33,8 @@ pub struct Pass<'a> {
     pub task: Task,
     /// What is kept of the first hits of the picture's camera rays.
     pub layers: LayerSet,
+    /// What is seen of lamps, straight or over mirrors and glass only, is told apart.
+    pub lamps: bool,
 }
 
 impl Pass<'_> {
@@ -46,6 +48,7 @@ impl Pass<'_> {
             light_paths: None,
             task: Task::Picture,
             layers: LayerSet::default(),
+            lamps: false,
         }
     }
 }

@@ -17,6 +17,9 @@ pub struct LayerSamples {
     pub hits: [u64; ITEMS],
     /// A row for each slot where a layer asks for it.
     pub direct: Vec<DirectLight>,
+    /// What paths have seen of lamps, straight or over mirrors and glass only, a row for each slot where that is told
+    /// apart ([`Pass::lamps`](crate::engine::pass::Pass::lamps)): as much as they have added of it to the slot's sample.
+    pub lamps: Vec<[f32; 3]>,
 }
 
 /// What has come to a sample over one surface at most.
@@ -31,8 +34,8 @@ pub struct DirectLight {
 }
 
 impl LayerSamples {
-    /// Makes ready for so many columns.
-    pub fn start(&mut self, kept: Kept) {
+    /// Makes ready for so many columns, and for what is seen of lamps.
+    pub fn start(&mut self, kept: Kept, lamps: bool) {
         self.hits = [0; ITEMS];
         self.sums.resize_with(kept.sums, || Box::new([0.0; PATHS]));
         self.sums.iter_mut().for_each(|column| column.fill(0.0));
@@ -42,6 +45,8 @@ impl LayerSamples {
         self.distance2.resize(if kept.nearest > 0 { PATHS } else { 0 }, f32::INFINITY);
         self.direct.clear();
         self.direct.resize(if kept.direct { PATHS } else { 0 }, DirectLight::default());
+        self.lamps.clear();
+        self.lamps.resize(if lamps { PATHS } else { 0 }, [0.0; 3]);
     }
 
     /// What there are columns for.

@@ -307,7 +307,7 @@ fn painter<'a>(
         backdrop: film.has_backdrop(),
         paper: film.paper,
         mattes: film.mattes(),
-        lamps: film.place_for_halves(Layer::Emission),
+        lamps: film.place_for_halves(Layer::Emission).is_some(),
         albedo: film.place_for_halves(Layer::DenoisingAlbedo),
         until: None,
         light_until: u32::MAX,

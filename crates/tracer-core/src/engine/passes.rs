@@ -172,9 +172,9 @@ pub struct Painter<'a> {
     pub paper: f64,
     /// What is counted for mattes.
     pub mattes: MattesKept,
-    /// Where the layer `emission` stands among the sums of samples, where halves are kept.
-    pub lamps: Option<usize>,
-    /// And the layer `denoising_albedo`.
+    /// What is seen of lamps is told apart for halves.
+    pub lamps: bool,
+    /// Where the layer `denoising_albedo` stands among the sums of samples, where halves are kept.
     pub albedo: Option<usize>,
     /// When the rendering ends at the latest.
     pub until: Option<Instant>,
@@ -228,7 +228,7 @@ impl Painter<'_> {
     /// Adds the samples of a pass, or of a quarter of its pixels, or what is left of it; gives what is left then. The
     /// keeper is told the film as it was before.
     pub fn paint(&self, film: &mut Film, samples: Range<u32>, keeper: Option<Keeper>) -> Option<Unfinished> {
-        let plain = Pass { layers: film.layers(), ..self.plain };
+        let plain = Pass { layers: film.layers(), lamps: self.lamps, ..self.plain };
         let whole = || vec![Piece { places: 0..self.places(), samples: samples.clone() }];
         let pieces = film.unfinished.take().map_or_else(whole, |rest| rest.pieces);
         let begins = pieces.first().is_none_or(|piece| piece.places.start <= self.places_now().start);
@@ -422,9 +422,8 @@ impl Painter<'_> {
                 tile.add_half_albedo(layers, (place, !self.backdrop), slots, common);
             }
         }
-        if let Some(place) = self.lamps {
-            let lamps = [0, 1, 2].map(|c| &layers.sums[place + c][slots.clone()]);
-            tile.add_lamps(half, lamps, common, self.limit);
+        if self.lamps {
+            tile.add_lamps(half, (&layers.lamps[slots.clone()], samples), common, self.limit);
         }
     }
 

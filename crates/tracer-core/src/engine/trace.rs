@@ -4,7 +4,7 @@ use super::technique::{Engine, Technique, Vertex};
 use super::watcher::Watcher;
 use super::{counting, direct};
 use tracer_kernels::bvh::{Accel, Coherence, Hits, Occlusion};
-use tracer_kernels::engine::batch::{Batch, rays};
+use tracer_kernels::engine::batch::{BRANCHING, Batch, rays};
 use tracer_kernels::engine::kernels::Kernels;
 use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::{deposit, planes_closest, planes_occluded};
@@ -23,7 +23,7 @@ pub fn trace(
     batch.start();
     if pass.layers.are_of_hits() && engine.is_first {
         // Here, for a batch may have no path at all: beside a fisheye's circle.
-        batch.layers.start(pass.layers.kept());
+        batch.layers.start(pass.layers.kept(), pass.lamps);
     }
     direct::start(batch);
     engine.kernels.camera(engine.scene, pass.seed, watcher.items(), batch);
@@ -92,6 +92,16 @@ pub fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     }
     if engine.is_first && pass.layers.seen().next().is_some() {
         engine.kernels.seen(engine.seen, pass.layers, vertex, batch);
+        batch.watch.lap(Stage::Layers);
+    }
+    lamps(engine, pass, vertex, batch);
+}
+
+/// What the rays of a vertex show of lamps, where that is told apart: as long as glass is followed both ways. Farther on
+/// chance chooses a way, and what is left to it has noise that denoising is for.
+pub fn lamps(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
+    if pass.lamps && vertex <= BRANCHING {
+        engine.kernels.lamps(engine.scene, batch);
         batch.watch.lap(Stage::Layers);
     }
 }

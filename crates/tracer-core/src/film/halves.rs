@@ -22,8 +22,8 @@ pub(super) struct TileHalf {
     samples: [u32; PIXELS],
     /// Where its light paths have fallen.
     splats: Option<Box<Sums>>,
-    /// What camera rays of either half have met of lamps, where they have; and of the background, where the film keeps
-    /// that by itself.
+    /// What samples of either half have seen of lamps, straight or over mirrors and glass only, where they have; and of
+    /// the background, where the film keeps that by itself.
     lamps: Option<Box<[Sums; 2]>>,
     /// The layer `denoising_albedo` of its samples, where the film has that; of those that have hit something where the
     /// film keeps the background by itself.
@@ -144,19 +144,27 @@ impl Tile {
         }
     }
 
-    /// Adds what camera rays of a half have met of lamps, red, green and blue of the samples that [`Tile::add`] is
-    /// given, too; where halves are kept. What is met of a lamp is all that such a sample has by itself, so it is
-    /// clamped as a sample is.
-    pub(crate) fn add_lamps(&mut self, of: usize, lamps: [&[f32]; 3], pixels: &[[u8; 2]], limit: Option<f64>) {
+    /// Adds what a half has seen of lamps, straight or over mirrors and glass, of the samples that [`Tile::add`] is
+    /// given, too; where halves are kept. It is clamped as a sample is, and never more than the sample has: what there
+    /// is beside it stays at zero or above.
+    pub(crate) fn add_lamps(
+        &mut self,
+        of: usize,
+        (lamps, samples): (&[[f32; 3]], impl Samples),
+        pixels: &[[u8; 2]],
+        limit: Option<f64>,
+    ) {
         let Some(half) = &mut self.half else { return };
         for &[k, pixel] in pixels {
-            let met = lamps.map(|channel| channel[usize::from(k)]);
+            let met = lamps[usize::from(k)];
             if met == [0.0; 3] || !counts(met) {
                 continue;
             }
+            let Some(sample) = samples.whole(usize::from(k)) else { continue };
             let largest = f64::from(met[0].max(met[1]).max(met[2]));
             let scale = limit.filter(|&limit| largest > limit).map_or(1.0, |limit| limit / largest);
-            half.add_to_lamps(of, usize::from(pixel), met.map(|x| fixed((f64::from(x) * scale) as f32)));
+            let seen = |c: usize| fixed((f64::from(met[c]) * scale) as f32).min(sample[c]);
+            half.add_to_lamps(of, usize::from(pixel), [0, 1, 2].map(seen));
         }
     }
 
@@ -223,8 +231,9 @@ impl Film {
         })
     }
 
-    /// What lamps, seen not by mirrors nor through glass, add to [`Film::radiance_of_halves`]; where the film has the
-    /// layer `emission`, else zero. It is clamped where samples are.
+    /// What lamps, seen straight or over up to three mirrors and surfaces of glass only, add to
+    /// [`Film::radiance_of_halves`]; where the film has the layer `emission`, else zero. It is clamped where samples
+    /// are, and is no more than they have.
     pub fn lamps_of_halves(&self, x: u32, y: u32) -> [[f64; 3]; 2] {
         let (tile, pixel) = self.place(x, y);
         let samples = self.samples_of_halves(x, y);

@@ -9,7 +9,7 @@
 
 use super::Trial;
 use crate::engine::technique::{Engine, Technique};
-use crate::engine::trace::{closest, shade};
+use crate::engine::trace::{closest, lamps, shade};
 use std::time::Instant;
 use tracer_kernels::engine::batch::{Batch, CHAINS, ITEMS, path};
 use tracer_kernels::engine::pass::{Pass, Task};
@@ -144,6 +144,7 @@ fn follow(engine: Engine<'_>, pass: Pass<'_>, items: u32, hits: u32, batch: &mut
     let mut vertex = 0;
     while batch.paths.len > 0 && vertex < hits {
         closest(engine, vertex == 0, batch);
+        lamps(engine, pass, vertex, batch);
         shade(engine, pass, vertex, batch);
         vertex += 1;
     }
