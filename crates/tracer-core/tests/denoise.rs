@@ -260,3 +260,55 @@ fn errors_fall() {
         assert!(plain || (energy - 1.0).abs() < 0.03, "{energy}: {text}");
     }
 }
+
+/// Small lamps in a mirror ball, before nothing and before a grey sky.
+fn lamps_in_a_mirror(radius: f64, background: f64) -> String {
+    let lamps: String = (0..15)
+        .map(|k| {
+            let (x, z) = (k % 5 - 2, k / 5 - 1);
+            format!("SphereLight(center: ({x}, 3, {z}), radius: {radius}, power: 40),")
+        })
+        .collect();
+    format!(
+        "Scene(camera: Camera(position: (0, 2.5, 4), look_at: (0, 0.3, 0), fov: 45), \
+         image: Image(width: 96, height: 96), render: Render(max_bounces: 8), background: {background}, \
+         lights: [{lamps}], objects: [Rectangle(size: 8, material: Diffuse(albedo: 0.3)), \
+         Sphere(center: (0, 0.6, 0), radius: 0.6, material: Mirror(reflectance: 0.9))])"
+    )
+}
+
+/// What mirrors show of small lamps is neither smeared nor lost: it is as bright as the lamps are, at few pixels, and
+/// was made patches that took up to 7 % of the picture's light and raised its error up to 300 times. The error without
+/// the worst thousandth, which the lamps' own edges bear, falls. With them it hardly changes, since they stay as they
+/// are: it may rise by a fiftieth. Of the light half a percent may go, three times what ever went. And what no sample
+/// and the truth show black stays below a tenth of the picture's mean: patches were brighter than the mean.
+#[test]
+fn small_lamps_in_mirrors_stay() {
+    for (radius, background) in [(0.03, 0.0), (0.03, 0.05), (0.06, 0.0), (0.1, 0.05)] {
+        let scene = scene(&lamps_in_a_mirror(radius, background), &[]);
+        let many = RenderOptions { samples: Some(256), seed: Some(99), ..RenderOptions::default() };
+        let reference = render(&scene, &many, &Unobserved);
+        let noisy = film(&scene, &options(16));
+        let denoised = denoise(&noisy).expect("it has all");
+        let of = |film: &Film| pixels(film).flat_map(|(x, y)| film.radiance(x, y)).collect::<Vec<f64>>();
+        let (truth, before) = (of(&reference), of(&noisy));
+        let after: Vec<f64> = denoised.radiance.iter().map(|&x| f64::from(x)).collect();
+        let error = |picture: &[f64]| {
+            let square = |(x, r): (&f64, &f64)| (x - r) * (x - r) / (r * r + 0.01);
+            let mut errors: Vec<f64> = picture.iter().zip(&truth).map(square).collect();
+            errors.sort_by(f64::total_cmp);
+            [errors.len(), errors.len() - errors.len().div_ceil(1000)].map(|end| errors[..end].iter().sum::<f64>())
+        };
+        let case = format!("radius {radius}, background {background}");
+        let ([whole, trimmed], [whole_after, trimmed_after]) = (error(&before), error(&after));
+        assert!(whole_after <= 1.02 * whole && trimmed_after <= trimmed, "{case}: {whole_after} {trimmed_after}");
+        let sum = |picture: &[f64]| picture.iter().sum::<f64>();
+        let energy = sum(&after) / sum(&before);
+        assert!((energy - 1.0).abs() < 0.005, "{case}: {energy}");
+        // Of the ball, where it shows nothing.
+        let mean = sum(&truth) / truth.len() as f64;
+        let black = |k: &usize| background == 0.0 && truth[*k] < 1e-3 * mean && before[*k] == 0.0;
+        let brightest = (0..truth.len()).filter(black).map(|k| after[k]).fold(0.0, f64::max);
+        assert!(brightest < 0.1 * mean, "{case}: {brightest}");
+    }
+}
