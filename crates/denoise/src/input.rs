@@ -15,8 +15,8 @@ pub struct Input<'a> {
     /// How many of the samples are the first half's, from 0 to 1, neither included: the picture is the first half times
     /// this and the second times the rest.
     pub share: f32,
-    /// What is seen of lamps themselves, straight or in mirrors and through glass, linear RGB, in the halves' unit, as a
-    /// mean over all their samples. There is no noise of light in it, only that of coverage, so it is left as it is.
+    /// What is seen of lamps themselves, straight or in mirrors and through glass, linear RGB, in the halves' unit, as
+    /// a mean over all their samples. There is no noise of light in it, only that of coverage, so it is left as it is.
     pub lamps: &'a [f32],
     /// Colour without light, textures included, in 0..=1, as either half has met it; one where nothing is hit, as what
     /// is behind everything has no texture, and zero where that is not part of the picture.

@@ -73,8 +73,8 @@ pub mod path {
     /// The path's ray was aimed ([`super::super::stages::aim`]): it goes on where it meets a mirror, glass or a glossy
     /// surface only.
     pub const AIMED: u32 = 16 * SHARED;
-    /// The path was aimed and has met mirrors and glass only since: roulette goes by what these take ([`AIMED`] ends with
-    /// the ray itself).
+    /// The path was aimed and has met mirrors and glass only since: roulette goes by what these take ([`AIMED`] ends
+    /// with the ray itself).
     pub const SPARED: u32 = 512 * SHARED;
     /// Of paths with any of these the camera sees nothing by mirrors and glass alone: they have met something else, or
     /// are beside a pixel's own.

@@ -127,6 +127,7 @@ fn is_group(field: &FieldDef, def: &'static StructDef) -> bool {
 }
 
 /// What other programs call a kind of ours.
+// Long: a table.
 pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'static str> {
     const SYNONYMS: &[(&str, &[&str])] = &[
         ("Linear", &["linear_spline", "linearspline", "polyline", "straight", "lines", "polygon"]),

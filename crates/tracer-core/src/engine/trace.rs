@@ -97,8 +97,8 @@ pub fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     lamps(engine, pass, vertex, batch);
 }
 
-/// What the rays of a vertex show of lamps, where that is told apart: as long as glass is followed both ways. Farther on
-/// chance chooses a way, and what is left to it has noise that denoising is for.
+/// What the rays of a vertex show of lamps, where that is told apart: as long as glass is followed both ways. Farther
+/// on chance chooses a way, and what is left to it has noise that denoising is for.
 pub fn lamps(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     if pass.lamps && vertex <= BRANCHING {
         engine.kernels.lamps(engine.scene, batch);

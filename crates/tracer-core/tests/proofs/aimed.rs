@@ -149,8 +149,8 @@ fn windows_and_a_lamp() {
     assert_guiding_is_unbiased("windows and a lamp", &scene, 256, SCENES);
 }
 
-/// Under a picture light samples see the sky through windows, too: three ways are weighed, and from its sun photons come
-/// over panes.
+/// Under a picture light samples see the sky through windows, too: three ways are weighed, and from its sun photons
+/// come over panes.
 #[test]
 fn windows_under_a_picture() {
     let text = windows(&picture(&sunny()), "", "Photons", "");
@@ -199,8 +199,8 @@ fn a_sun_over_glass_and_mirrors() {
     assert_guiding_is_unbiased("a sun over glass", &scene, 256, SCENES);
 }
 
-/// What a sun brings through water is told by most samples, not by one of thousands: half of the pixels have 0.95 of the
-/// mean and more. Four fifths of the light is the sun's; rays by chance leave a fifth in most pixels.
+/// What a sun brings through water is told by most samples, not by one of thousands: half of the pixels have 0.95 of
+/// the mean and more. Four fifths of the light is the sun's; rays by chance leave a fifth in most pixels.
 #[test]
 fn a_sun_over_glass_is_found() {
     let text = format!(

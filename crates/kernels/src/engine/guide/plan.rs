@@ -313,8 +313,8 @@ impl PairTable {
         table
     }
 
-    /// The bright part of the sky, from where photons come to a disc before the caster. No light paths are made of them:
-    /// paths do not reckon with these.
+    /// The bright part of the sky, from where photons come to a disc before the caster. No light paths are made of
+    /// them: paths do not reckon with these.
     fn push_sky(&mut self, bright: &Bright, caster: &Caster, probability: f64, any_flat: bool) {
         let target = bright.target(caster);
         let (center, radius) = target;

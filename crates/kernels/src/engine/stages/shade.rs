@@ -216,8 +216,8 @@ impl<'a, F: Lanes> Stage<'a, F> {
     }
 
     /// Ends paths by a chance that falls with what they carry, and gives the chance that they go on. That one which
-    /// shares goes on must not depend on where to: other pixels reckon with its density. Of aimed rays mirrors and glass
-    /// end what they take themselves: such rays bring far more than the path carries (docs/noise.md).
+    /// shares goes on must not depend on where to: other pixels reckon with its density. Of aimed rays mirrors and
+    /// glass end what they take themselves: such rays bring far more than the path carries (docs/noise.md).
     #[inline(always)]
     fn roulette(&self, at: &Vertex<'_, F>, chance: F, sharing: F::M, onward: &mut Onward<F>) -> F {
         let (zero, one) = (F::splat(0.0), F::splat(1.0));

@@ -32,9 +32,9 @@ const LEAST: f32 = 0.03;
 const WANTED: f32 = 512.0;
 const MOST_MORE: u32 = 8;
 
-/// How often a path sees the sky, as far as that is worth to be known: not where rays by chance see it as often as aimed
-/// ones would. Found out by at most so many paths; it depends on nothing but them, so that windows are not aimed at in
-/// one frame and left to chance in the next.
+/// How often a path sees the sky, as far as that is worth to be known: not where rays by chance see it as often as
+/// aimed ones would. Found out by at most so many paths; it depends on nothing but them, so that windows are not aimed
+/// at in one frame and left to chance in the next.
 pub fn finds_per_path(trial: &Trial<'_>, most: u32) -> Option<f32> {
     let scene = trial.engine.scene;
     if !scene.is_under_sky() || scene.max_bounces == 0 {
