@@ -56,10 +56,10 @@ fn powers_of_two_change_no_digit() {
 }
 
 /// Powers of ten round the lights' radiances, by 2^-24 of them at most, and what is multiplied with them a little:
-/// every pixel is right to a hundred thousandth of itself, or of the mean where it is dark. Hardly a choice goes another
-/// way, for of powers only ratios count: a picture has some half a million (which light, whether and where to a ray is
-/// aimed, who goes on), each on the edge of rounding, 2^-23, by chance, so one picture in twenty has such a pixel, and
-/// one in ten thousand three. (A sharing pixel among them would change its block.)
+/// every pixel is right to a hundred thousandth of itself, or of the mean where it is dark. Hardly a choice goes
+/// another way, for of powers only ratios count: a picture has some half a million (which light, whether and where to
+/// a ray is aimed, who goes on), each on the edge of rounding, 2^-23, by chance, so one picture in twenty has such a
+/// pixel, and one in ten thousand three. (A sharing pixel among them would change its block.)
 #[test]
 fn powers_of_ten_change_the_rounding_alone() {
     for (name, desc) in [("everything", everything()), ("many balls", many_balls())] {

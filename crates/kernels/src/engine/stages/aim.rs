@@ -113,26 +113,32 @@ impl<F: Lanes> Place<F> {
     fn none() -> Self {
         Place { cell: F::U::splat(0), chance: F::splat(0.0) }
     }
+
+    /// That around points.
+    #[inline(always)]
+    fn new(cells: &Cells, p: V3<F>, mask: F::M) -> Self {
+        let cell = cells.find(p, mask);
+        Place { cell, chance: F::gather(&cells.chance, cell) }
+    }
+
+    /// With less of a chance where pixels share.
+    #[inline(always)]
+    fn less(self, shared: F::M) -> Self {
+        let times = F::select(shared, F::splat(OF_SHARED), F::splat(1.0));
+        Place { chance: self.chance * times, ..self }
+    }
 }
 
 /// The cells of a guide around points, and of its sky. Of both chances not more than one is taken.
 #[inline(always)]
 fn places<F: Lanes>(guide: &Guide, p: V3<F>, mask: F::M, shared: F::M) -> [Place<F>; 2] {
-    let of = |cells: &Cells| {
-        let cell = cells.find(p, mask);
-        Place { cell, chance: F::gather(&cells.chance, cell) }
-    };
-    let one = F::splat(1.0);
-    let less = |sky: Place<F>| {
-        let times = F::select(shared, F::splat(OF_SHARED), one);
-        Place { chance: sky.chance * times, ..sky }
-    };
     let (lights, sky) = match (&guide.lights, &guide.sky) {
-        (Some(lights), Some(sky)) => (of(lights), less(of(sky))),
-        (Some(lights), None) => return [of(lights), Place::none()],
-        (None, Some(sky)) => return [Place::none(), less(of(sky))],
+        (Some(lights), Some(sky)) => (Place::new(lights, p, mask), Place::new(sky, p, mask).less(shared)),
+        (Some(lights), None) => return [Place::new(lights, p, mask), Place::none()],
+        (None, Some(sky)) => return [Place::none(), Place::new(sky, p, mask).less(shared)],
         (None, None) => return [Place::none(); 2],
     };
+    let one = F::splat(1.0);
     let most = one / (lights.chance + sky.chance).max(one);
     [lights, sky].map(|Place { cell, chance }| Place { cell, chance: chance * most })
 }
