@@ -352,7 +352,7 @@ mod tests {
             ("list", "len(sizes)"),
             ("scale bar", "thin Box"),
             ("thumbnail", "--size 160x120"),
-            ("shadow catcher", "there is none"),
+            ("shadow catcher", "there is no shadow catcher"),
             ("radiosity", "max_bounces"),
         ] {
             let text = explain_word(word).unwrap_or_default();

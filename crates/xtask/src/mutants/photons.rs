@@ -128,8 +128,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "rough-metals-aim-nothing",
         file: SHARING,
-        find: "let mut aims = at.surfaces & at.bsdf.rough()",
-        replace: "let mut aims = at.surfaces & at.bsdf.has_one_color()",
+        find: "let aims = at.surfaces & at.bsdf.rough()",
+        replace: "let aims = at.surfaces & at.bsdf.has_one_color()",
         caught_by: proofs(&["aimed::light_over_glass_is_found_from_rough_metals"]),
     },
     Mutant {
@@ -149,8 +149,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "own-rays-see-the-sky-in-full-beside-aimed-ones",
         file: EMISSION,
-        find: "F::select(own, by_itself / (by_itself + by_aiming), one)",
-        replace: "F::select(own, by_itself / by_itself.max(by_aiming * F::splat(0.0)), one)",
+        find: "F::select(own, by_itself / both, one)",
+        replace: "one",
         caught_by: proofs(&["aimed::windows_under_a_sky"]),
     },
     Mutant {
