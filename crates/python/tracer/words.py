@@ -624,32 +624,36 @@ class Noise(TypedDict, total=False):
 NoiseKind = Literal["Fbm", "Perlin", "Turbulence"]
 
 class Wood(TypedDict, total=False):
-    """Rings around the y axis, one a unit of the mapped coordinates, bent by noise. Along y it looks like the side of a plank, in stripes; across it, at the end of a plank, like a cut tree, in rings about the origin. There is no field that turns it: with `mapping: Object()` it turns with the object's `transform`. So a plank whose grain runs along x is written upright and turned: `Box(size: (0.2, 2, 0.1), transform: [Rotate(axis: (0, 0, 1), degrees: 90)])`. The heart of the tree is at x = 0, z = 0: an `offset` moves it.
+    """Rings around the trunk's axis, one a unit of the mapped coordinates, bent by noise. Along the axis it looks like the side of a plank, in stripes; across it, at the end of a plank, like a cut tree, in rings about the origin. A floor or a table top shows stripes with `axis: (1, 0, 0)`, rings with the default. With `mapping: Object()` it turns with the object's `transform`. The axis passes through the origin: an `offset` of the mapping moves it.
 
     a: The colour in a ring's middle, and on the axis.
     b: The colour between.
     distortion: How far noise bends the rings, in rings.
+    axis: Direction of the trunk, in the mapped coordinates: grain runs along it.
     mapping: How it lies: `Object(scale: 4)` makes it four times finer.
     """
 
     a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     distortion: Either[float, str, PickItem]
+    axis: Either[Sequence[Either[float, str]], Array, str, PickItem]
     mapping: Either[SolidMapping, PickItem]
 
 
 class Marble(TypedDict, total=False):
-    """Veins across the x axis, one a unit of the mapped coordinates, bent by six octaves of turbulence. With `mapping: Object()` they turn with the object's `transform`, as `Wood` does.
+    """Veins across an axis, one a unit of the mapped coordinates, bent by six octaves of turbulence. With `mapping: Object()` they turn with the object's `transform`, as `Wood` does.
 
     a: The colour of the veins.
     b: The colour between them.
     distortion: How far turbulence bends the veins, in veins.
+    axis: Direction across the veins, in the mapped coordinates: they follow each other along it.
     mapping: How it lies: `Object(scale: 4)` makes it four times finer.
     """
 
     a: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     b: Either[float, Sequence[Either[float, str]], Array, str, Pattern, PickItem]
     distortion: Either[float, str, PickItem]
+    axis: Either[Sequence[Either[float, str]], Array, str, PickItem]
     mapping: Either[SolidMapping, PickItem]
 
 

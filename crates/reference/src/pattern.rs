@@ -105,8 +105,13 @@ fn t(kind: PatternKind, p: DVec3) -> f64 {
             NoiseKind::Fbm => 0.5 + 0.5 * octaves(p, count, lacunarity, gain, |n| n),
             NoiseKind::Turbulence => octaves(p, count, lacunarity, gain, f64::abs),
         },
-        PatternKind::Wood { distortion } => wave(p.x.hypot(p.z) + distortion * octaves(p, 4, 2.0, 0.5, |n| n)),
-        PatternKind::Marble { distortion } => wave(p.x + distortion * octaves(p, 6, 2.0, 0.5, f64::abs)),
+        PatternKind::Wood { distortion, axis } => {
+            let distance = DVec3::from(axis).cross(p).length();
+            wave(distance + distortion * octaves(p, 4, 2.0, 0.5, |n| n))
+        }
+        PatternKind::Marble { distortion, axis } => {
+            wave(DVec3::from(axis).dot(p) + distortion * octaves(p, 6, 2.0, 0.5, f64::abs))
+        }
         PatternKind::Voronoi { feature, jitter } => cells(p, feature, jitter),
     }
 }

@@ -119,6 +119,8 @@ fn materials_and_textures() {
         ),
         ("Diffuse(albedo: Wood(scale: 0.2))", "`mapping: Object(scale: 5)` for a pattern of 0.2 of the size"),
         ("Diffuse(albedo: Marble(scale: (0.5, 1, 0.3)))", "`mapping: Object(scale: (2, 1, 3.333))`"),
+        ("Diffuse(albedo: Wood(direction: (1, 0, 0)))", "its direction is `axis`: `axis: (1, 0, 0)`"),
+        ("Diffuse(albedo: Noise(rotation: 90))", "a pattern turns with its object"),
         ("Diffuse(\"green\")", "write `Diffuse(albedo: \"#008000\")`"),
         ("Diffuse(specular: 0.5)", "BlinnPhong("),
         ("\"earth.png\"", "Diffuse(albedo: Texture(file: \"earth.png\"))"),

@@ -85,15 +85,19 @@ pub enum PatternKind {
         /// g.
         gain: f64,
     },
-    /// Rings about the second axis.
+    /// Rings about an axis.
     Wood {
         /// How far noise bends them.
         distortion: f64,
+        /// Its direction, of length one.
+        axis: [f64; 3],
     },
-    /// Veins across the first axis.
+    /// Veins across an axis.
     Marble {
         /// How far turbulence bends them.
         distortion: f64,
+        /// Its direction, of length one.
+        axis: [f64; 3],
     },
     /// One scattered point in each unit cube.
     Voronoi {
@@ -136,7 +140,7 @@ impl Pattern {
         let (kind, p) = number_and_parameters(&self.kind);
         let octaves = [f64::from(p.octaves), p.lacunarity, p.gain];
         let numbers = self.map.as_flattened().iter().chain(&self.a).chain(&self.b).chain(&octaves);
-        let numbers = numbers.chain(&p.shape).chain(&self.across);
+        let numbers = numbers.chain(&p.shape).chain(&self.across).chain([&p.distortion]);
         let mut row = [0.0; STRIDE as usize];
         for (to, &x) in row.iter_mut().zip(numbers) {
             *to = x as f32;
@@ -149,6 +153,7 @@ impl Pattern {
 fn number_and_parameters(of: &PatternKind) -> (u32, Parameters) {
     let none = Parameters::default();
     let shape = |x: f64, y: f64, z: f64| Parameters { shape: [x, y, z], ..none };
+    let bent = |octaves: u32, distortion: f64, axis: [f64; 3]| Parameters { octaves, shape: axis, distortion, ..none };
     match *of {
         PatternKind::Checkerboard => (kind::CHECKERBOARD, none),
         PatternKind::Lines { at_u, at_v, width } => {
@@ -170,12 +175,8 @@ fn number_and_parameters(of: &PatternKind) -> (u32, Parameters) {
             };
             (number, Parameters { octaves, lacunarity, gain, ..none })
         }
-        PatternKind::Wood { distortion } => {
-            (kind::WOOD, Parameters { octaves: WOOD_OCTAVES, ..shape(distortion, 0.0, 0.0) })
-        }
-        PatternKind::Marble { distortion } => {
-            (kind::MARBLE, Parameters { octaves: MARBLE_OCTAVES, ..shape(distortion, 0.0, 0.0) })
-        }
+        PatternKind::Wood { distortion, axis } => (kind::WOOD, bent(WOOD_OCTAVES, distortion, axis)),
+        PatternKind::Marble { distortion, axis } => (kind::MARBLE, bent(MARBLE_OCTAVES, distortion, axis)),
         PatternKind::Voronoi { feature, jitter } => {
             let feature = match feature {
                 VoronoiFeature::F1 => voronoi_feature::F1,
@@ -223,17 +224,19 @@ struct Parameters {
     gain: f64,
     /// Of its kind's own.
     shape: [f64; 3],
+    /// How far octaves bend it.
+    distortion: f64,
 }
 
 impl Default for Parameters {
     fn default() -> Self {
-        Parameters { octaves: 0, lacunarity: 2.0, gain: 0.5, shape: [0.0; 3] }
+        Parameters { octaves: 0, lacunarity: 2.0, gain: 0.5, shape: [0.0; 3], distortion: 0.0 }
     }
 }
 
 /// Numbers a pattern takes in [`PatternTable::rows`]: the map, both colours, the octaves' three, the kind's three,
-/// those of longitude and latitude.
-pub const STRIDE: u32 = 26;
+/// those of longitude and latitude, how far it is bent.
+pub const STRIDE: u32 = 27;
 
 /// Which coordinates surfaces are written in. Nothing where no pattern asks for it.
 #[derive(Default)]

@@ -27,6 +27,21 @@ const WORDS: &[(&[&str], &str)] = &[
          20, specular: 0.05, energy_conserving: true); grain is a picture or a pattern, Noise(), as its `albedo`",
     ),
     (
+        &[
+            "planks",
+            "plank",
+            "boards",
+            "floorboards",
+            "parquet",
+            "wood floor",
+            "wooden floor",
+            "table top",
+            "grain of wood",
+        ],
+        "a floor or a table top shows stripes where the grain lies in it: Diffuse(albedo: Wood(a: (0.5, 0.28, 0.13), \
+         b: (0.25, 0.11, 0.05), axis: (1, 0, 0), mapping: Object(scale: (1, 8, 8))))",
+    ),
+    (
         &["data", "chart", "bars", "bar chart", "histogram", "scatter plot", "plot", "table of numbers"],
         "numbers stand in `vars`, and a Repeat draws them: vars: { \"data\": [3, 1, 4] } and Repeat(count: \
          \"=len(data)\", items: [Box(center: (\"=i\", \"=data[i]/2\", 0), size: (0.8, \"=data[i]\", 0.8))])",

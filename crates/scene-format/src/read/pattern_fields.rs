@@ -62,12 +62,18 @@ pub(super) fn of_mapping(
             let written = mapping(kind, "scale", "..", syntax);
             return Some((format!("its `mapping` says how fine it is: {written}, one over the size of a cell"), None));
         }
+        "rotate" | "rotation" | "angle" | "transform" | "direction" | "orientation" | "grain" | "normal"
+            if def.field("axis").is_some_and(|axis| axis.rule.direction) =>
+        {
+            let (name, x) = (Fields(syntax).name("axis"), vector(value, &["1", "0", "0"]));
+            return Some((format!("its direction is `axis`: `{name}{x}`; or it turns with its object"), None));
+        }
         "rotate" | "rotation" | "angle" | "transform" | "direction" | "orientation" | "axis" => {
             let turn = match syntax {
                 Syntax::Ron => "transform: [Rotate(axis: (0, 0, 1), degrees: 90)]".into(),
                 syntax => syntax.of_toml("transform = [{ Rotate = { axis = [0, 0, 1], degrees = 90 } }]"),
             };
-            return Some((format!("a pattern turns with its object: `{turn}`; see Wood in the reference"), None));
+            return Some((format!("a pattern turns with its object: `{turn}`"), None));
         }
         _ => return None,
     };

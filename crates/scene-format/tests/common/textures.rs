@@ -29,9 +29,13 @@ fn planar(random: &mut Random) -> Planar {
     Planar { origin: vector(random), normal: [number(random, 0.1, 9.0), random.unit(), 0.0].into(), size }
 }
 
+fn direction(random: &mut Random) -> Spanned<[f64; 3]> {
+    [number(random, 0.1, 9.0), random.unit(), 0.0].into()
+}
+
 fn spherical(random: &mut Random) -> Spherical {
     let scale = PerAxis([(); 2].map(|()| number(random, -9.0, 9.0)));
-    Spherical { center: vector(random), axis: [number(random, 0.1, 9.0), random.unit(), 0.0].into(), scale }
+    Spherical { center: vector(random), axis: direction(random), scale }
 }
 
 fn triplanar(random: &mut Random) -> Triplanar {
@@ -80,7 +84,13 @@ fn reckoned(random: &mut Random) -> Albedo {
             let (octaves, lacunarity, gain) = (1 + random.below(16) as u32, number(random, 1.0, 8.0), random.unit());
             Albedo::Noise(Box::new(Noise { a, b, kind, octaves, lacunarity, gain, mapping: solid }))
         }
-        5 => Albedo::Wood(Box::new(Wood { a, b, distortion: number(random, -9.0, 9.0), mapping: solid })),
+        5 => Albedo::Wood(Box::new(Wood {
+            a,
+            b,
+            distortion: number(random, -9.0, 9.0),
+            axis: direction(random),
+            mapping: solid,
+        })),
         8 => Albedo::Mix(Box::new(Mix { a, b, weight: part(random) })),
         9 => Albedo::Multiply(Box::new(Multiply { a, b })),
         11 => {
@@ -94,7 +104,13 @@ fn reckoned(random: &mut Random) -> Albedo {
             let (stops, interpolation) = (Stops(stops.into()), *random.pick(&kinds));
             Albedo::ColorRamp(Box::new(ColorRamp { input: a, stops, interpolation }))
         }
-        6 => Albedo::Marble(Box::new(Marble { a, b, distortion: number(random, -9.0, 9.0), mapping: solid })),
+        6 => Albedo::Marble(Box::new(Marble {
+            a,
+            b,
+            distortion: number(random, -9.0, 9.0),
+            axis: direction(random),
+            mapping: solid,
+        })),
         _ => {
             let feature = *random.pick(&[VoronoiFeature::F1, VoronoiFeature::F2MinusF1, VoronoiFeature::Cell]);
             Albedo::Voronoi(Box::new(Voronoi { a, b, feature, jitter: random.unit(), mapping: solid }))

@@ -3,6 +3,7 @@
 use super::placing::sides;
 use glam::DVec3;
 use scene_format::desc::{self, Albedo, LinesAlong, SolidMapping};
+use scene_format::diagnostic::Spanned;
 use tracer_kernels::scene::{GradientAxis, NoiseKind, Pattern, PatternKind, Space, VoronoiFeature};
 
 /// Where a texture lies: what its coordinates start from, and the way from there.
@@ -78,6 +79,12 @@ fn scaled_and_moved([x, y, z]: [f64; 3], [dx, dy, dz]: [f64; 3]) -> [[f64; 4]; 3
     [[x, 0.0, 0.0, dx], [0.0, y, 0.0, dy], [0.0, 0.0, z, dz]]
 }
 
+/// A direction at length one.
+fn unit(direction: &Spanned<desc::Vec3>) -> [f64; 3] {
+    let direction = DVec3::from(direction.value);
+    (direction / direction.abs().max_element()).normalize().to_array()
+}
+
 fn kind(words: &Albedo) -> Option<PatternKind> {
     Some(match words {
         Albedo::Color(_) | Albedo::Texture(_) | Albedo::Named(_) => return None,
@@ -105,8 +112,8 @@ fn kind(words: &Albedo) -> Option<PatternKind> {
             };
             PatternKind::Noise { kind, octaves, lacunarity: noise.lacunarity, gain: noise.gain }
         }
-        Albedo::Wood(wood) => PatternKind::Wood { distortion: wood.distortion },
-        Albedo::Marble(marble) => PatternKind::Marble { distortion: marble.distortion },
+        Albedo::Wood(wood) => PatternKind::Wood { distortion: wood.distortion, axis: unit(&wood.axis) },
+        Albedo::Marble(marble) => PatternKind::Marble { distortion: marble.distortion, axis: unit(&marble.axis) },
         Albedo::Voronoi(voronoi) => PatternKind::Voronoi {
             feature: match voronoi.feature {
                 desc::VoronoiFeature::F1 => VoronoiFeature::F1,

@@ -4,11 +4,12 @@
 use crate::support::compiled;
 use glam::DVec3;
 use std::path::Path;
+use tracer_core::scene::PatternKind;
 use tracer_core::{Layer, LayerSet, Level, RenderOptions, Scene, Unobserved, render};
 use tracer_reference::first_hits;
 
 /// Every pattern, by texture coordinates and in space where it may be.
-const PATTERNS: [&str; 22] = [
+const PATTERNS: [&str; 25] = [
     "Checkerboard(a: 0.1, b: (0.9, 0.7, 0.5), mapping: Object(scale: (3, 2, 4), offset: (0.13, 0.27, 0.41)))",
     "Checkerboard(a: 0.1, b: 0.9, mapping: World(scale: 2.3, offset: (0.1, 0.2, 0.3)))",
     "Lines(a: 0.2, b: (0.9, 0.8, 0.3), width: 0.3, mapping: Uv(scale: (7, 5), rotation: 20, offset: (0.1, 0.3)))",
@@ -25,7 +26,10 @@ const PATTERNS: [&str; 22] = [
     "Noise(mapping: Uv(scale: (9, 4), rotation: 30))",
     "Wood(a: 0.7, b: 0.1, mapping: Object(scale: 4))",
     "Wood(a: 0.7, b: 0.1, distortion: 1.5, mapping: World(scale: 2))",
+    "Wood(a: 0.7, b: 0.1, axis: (-3, 1, 2), mapping: Object(scale: (4, 2, 3)))",
+    "Wood(a: 0.7, b: 0.1, axis: (0, 0, 2), mapping: Uv(scale: (5, 3), offset: (-2.5, -1.5)))",
     "Marble(mapping: Object(scale: 2))",
+    "Marble(axis: (1, -2, 0.5), mapping: World(scale: 2))",
     "Marble(a: 0.9, b: 0.2, distortion: -0.7, mapping: Uv(scale: (5, 3)))",
     "Voronoi(a: 0.1, b: (0.9, 0.5, 0.2), mapping: Object(scale: 3))",
     "Voronoi(feature: F2MinusF1, mapping: World(scale: (3, 4, 5), offset: (-7, 0, 3)))",
@@ -180,6 +184,21 @@ fn every_pattern_is_that_of_the_reference_at_every_level() {
                 |colors: &[[f32; 3]]| -> Vec<u32> { colors.as_flattened().iter().map(|x| x.to_bits()).collect() };
             assert_eq!(bits(&seen(&scene, level)), bits(&ours), "{pattern}: {}", level.name());
         }
+    }
+}
+
+/// The direction of a grain is that of its words, at length one, whatever theirs is.
+#[test]
+fn grain_runs_along_its_axis() {
+    let axis = |words: &str| match scene(words).pattern(0).map(|pattern| pattern.kind) {
+        Some(PatternKind::Wood { axis, .. } | PatternKind::Marble { axis, .. }) => axis,
+        other => panic!("{words}: {other:?}"),
+    };
+    assert_eq!(axis("Wood()"), [0.0, 1.0, 0.0]);
+    assert_eq!(axis("Marble()"), [1.0, 0.0, 0.0]);
+    for size in ["", "e9", "e-9"] {
+        let along = DVec3::from(axis(&format!("Wood(axis: (3{size}, 0, -4{size}))")));
+        assert!(along.distance(DVec3::new(0.6, 0.0, -0.8)) < 1e-15, "{along}");
     }
 }
 

@@ -10,6 +10,7 @@ use scene_format::desc::{
     Reflectance, SolidMapping, Spherical, Stop, Stops, Texture, TextureChannel, TextureColorSpace, TextureFilter,
     TextureWrap, Triplanar, VertexColor, VertexColorSpace, Voronoi, VoronoiFeature, Wood,
 };
+use scene_format::diagnostic::Spanned;
 use std::sync::Arc;
 use tracer_reference::Random;
 
@@ -65,6 +66,11 @@ fn mapping(random: &mut Random) -> Mapping {
 /// Any direction.
 fn direction(random: &mut Random) -> [f64; 3] {
     [random.between(0.1, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0)]
+}
+
+/// The usual one as often as any.
+fn axis(random: &mut Random, usual: [f64; 3]) -> Spanned<[f64; 3]> {
+    if once_in(random, 2) { usual } else { direction(random) }.into()
 }
 
 fn point(random: &mut Random) -> [f64; 3] {
@@ -143,7 +149,13 @@ fn pattern(world: &mut World, random: &mut Random, depth: u32) -> Albedo {
             let (lacunarity, gain) = (half(random, 2.0, 3.0).max(1.0), half(random, 0.5, 0.9));
             Albedo::Noise(Box::new(Noise { a, b, kind, octaves, lacunarity, gain, mapping: solid }))
         }
-        5 => Albedo::Wood(Box::new(Wood { a, b, distortion: half(random, 0.2, 2.0), mapping: solid })),
+        5 => Albedo::Wood(Box::new(Wood {
+            a,
+            b,
+            distortion: half(random, 0.2, 2.0),
+            axis: axis(random, [0.0, 1.0, 0.0]),
+            mapping: solid,
+        })),
         7 => {
             let weight = if once_in(random, 3) { [0.5; 3].into() } else { part(world, random, depth.max(1)) };
             Albedo::Mix(Box::new(Mix { a, b, weight }))
@@ -154,7 +166,13 @@ fn pattern(world: &mut World, random: &mut Random, depth: u32) -> Albedo {
             let (input, interpolation) = (part(world, random, depth.max(1)), one_of(random, &kinds));
             Albedo::ColorRamp(Box::new(ColorRamp { input, stops: stops(random), interpolation }))
         }
-        6 => Albedo::Marble(Box::new(Marble { a, b, distortion: half(random, 1.0, 3.0), mapping: solid })),
+        6 => Albedo::Marble(Box::new(Marble {
+            a,
+            b,
+            distortion: half(random, 1.0, 3.0),
+            axis: axis(random, [1.0, 0.0, 0.0]),
+            mapping: solid,
+        })),
         _ => {
             let feature = one_of(random, &[VoronoiFeature::F1, VoronoiFeature::F2MinusF1, VoronoiFeature::Cell]);
             Albedo::Voronoi(Box::new(Voronoi { a, b, feature, jitter: half(random, 1.0, 1.0), mapping: solid }))

@@ -130,11 +130,11 @@ textures! {
     /// l the `lacunarity` and g the `gain`: t = 1/2 + n(p)/2 for `Perlin`, 1/2 + sum g^i n(l^i p) / (2 sum g^i) for
     /// `Fbm`, sum g^i |n(l^i p)| / sum g^i for `Turbulence`.
     pattern Noise;
-    /// Rings round the y axis, one a unit, bent by noise: from `a` to `b` by t = 1/2 - cos(2 pi (hypot(x, z) +
-    /// `distortion` n)) / 2, n four octaves of noise from -1 to 1.
+    /// Rings round an axis, one a unit, bent by noise: from `a` to `b` by t = 1/2 - cos(2 pi (d + `distortion` n)) / 2,
+    /// d the distance from the `axis` through the origin, n four octaves of noise from -1 to 1.
     pattern Wood;
-    /// Veins across the x axis, one a unit, bent by turbulence: from `a` to `b` by t = 1/2 - cos(2 pi (x + `distortion`
-    /// n)) / 2, n six octaves of turbulence from 0 to 1.
+    /// Veins across an axis, one a unit, bent by turbulence: from `a` to `b` by t = 1/2 - cos(2 pi (x + `distortion`
+    /// n)) / 2, x the coordinate along the `axis`, n six octaves of turbulence from 0 to 1.
     pattern Marble;
     /// Cells about scattered points, one in each unit cube (Worley 1996): stones, scales, cracks.
     pattern Voronoi;

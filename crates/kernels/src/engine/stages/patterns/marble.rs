@@ -1,12 +1,13 @@
-//! Veins across the x axis: t = 1/2 - cos(2 pi (x + distortion n))/2, n six octaves of turbulence from 0 to 1.
+//! Veins across an axis: t = 1/2 - cos(2 pi (x + distortion n))/2, x the coordinate along it, n six octaves of
+//! turbulence from 0 to 1.
 
 use crate::engine::stages::textures::floor;
 use crate::lanes::Lanes;
 use crate::math::{V3, sincos_turns};
 
 #[inline(always)]
-pub fn t<F: Lanes>(p: V3<F>, distortion: F, turbulence: F) -> F {
-    wave(distortion.fma(turbulence, p.0))
+pub fn t<F: Lanes>(p: V3<F>, axis: V3<F>, distortion: F, turbulence: F) -> F {
+    wave(distortion.fma(turbulence, axis.dot(p)))
 }
 
 /// 1/2 - cos(2 pi x)/2.

@@ -119,11 +119,10 @@ fn color<F: Lanes>(table: &PatternTable, id: F::U, s: &At<F>, mask: F::M) -> V3<
             let sum = noise::octaves(p, octaves, turbulence | marble, noisy);
             t = F::select(fbm, sum.fma(F::splat(0.5), F::splat(0.5)), t);
             t = F::select(turbulence, sum, t);
-            if wood.any() {
-                t = F::select(wood, wood::t(p, shape.0, sum), t);
-            }
-            if marble.any() {
-                t = F::select(marble, marble::t(p, shape.0, sum), t);
+            if (wood | marble).any() {
+                let distortion = F::gather(&table.rows, place + F::U::splat(26));
+                t = F::select(wood, wood::t(p, shape, distortion, sum), t);
+                t = F::select(marble, marble::t(p, shape, distortion, sum), t);
             }
         }
     }
