@@ -261,8 +261,8 @@ fn errors_fall() {
     }
 }
 
-/// Small lamps in a mirror ball, before nothing and before a grey sky.
-fn lamps_in_a_mirror(radius: f64, background: f64) -> String {
+/// Small lamps in a ball, before nothing and before a grey sky.
+fn lamps_in_a_ball(material: &str, radius: f64, background: f64) -> String {
     let lamps: String = (0..15)
         .map(|k| {
             let (x, z) = (k % 5 - 2, k / 5 - 1);
@@ -273,8 +273,43 @@ fn lamps_in_a_mirror(radius: f64, background: f64) -> String {
         "Scene(camera: Camera(position: (0, 2.5, 4), look_at: (0, 0.3, 0), fov: 45), \
          image: Image(width: 96, height: 96), render: Render(max_bounces: 8), background: {background}, \
          lights: [{lamps}], objects: [Rectangle(size: 8, material: Diffuse(albedo: 0.3)), \
-         Sphere(center: (0, 0.6, 0), radius: 0.6, material: Mirror(reflectance: 0.9))])"
+         Sphere(center: (0, 0.6, 0), radius: 0.6, material: {material})])"
     )
+}
+
+/// A picture before and after, and the truth; numbers of the channels, one after the other.
+struct Pictures {
+    truth: Vec<f64>,
+    before: Vec<f64>,
+    after: Vec<f64>,
+}
+
+impl Pictures {
+    fn new(text: &str, samples: u32) -> Self {
+        let scene = scene(text, &[]);
+        let many = RenderOptions { samples: Some(256), seed: Some(99), ..RenderOptions::default() };
+        let reference = render(&scene, &many, &Unobserved);
+        let noisy = film(&scene, &options(samples));
+        let denoised = denoise(&noisy).expect("it has all");
+        let of = |film: &Film| pixels(film).flat_map(|(x, y)| film.radiance(x, y)).collect::<Vec<f64>>();
+        let after = denoised.radiance.iter().map(|&x| f64::from(x)).collect();
+        Pictures { truth: of(&reference), before: of(&noisy), after }
+    }
+
+    /// Relative squared errors before and after, of all and without the worst thousandth.
+    fn errors(&self) -> [[f64; 2]; 2] {
+        [&self.before, &self.after].map(|picture| {
+            let square = |(x, r): (&f64, &f64)| (x - r) * (x - r) / (r * r + 0.01);
+            let mut errors: Vec<f64> = picture.iter().zip(&self.truth).map(square).collect();
+            errors.sort_by(f64::total_cmp);
+            [errors.len(), errors.len() - errors.len().div_ceil(1000)].map(|end| errors[..end].iter().sum::<f64>())
+        })
+    }
+
+    /// Light after over light before.
+    fn energy(&self) -> f64 {
+        self.after.iter().sum::<f64>() / self.before.iter().sum::<f64>()
+    }
 }
 
 /// What mirrors show of small lamps is neither smeared nor lost: it is as bright as the lamps are, at few pixels, and
@@ -285,30 +320,52 @@ fn lamps_in_a_mirror(radius: f64, background: f64) -> String {
 #[test]
 fn small_lamps_in_mirrors_stay() {
     for (radius, background) in [(0.03, 0.0), (0.03, 0.05), (0.06, 0.0), (0.1, 0.05)] {
-        let scene = scene(&lamps_in_a_mirror(radius, background), &[]);
-        let many = RenderOptions { samples: Some(256), seed: Some(99), ..RenderOptions::default() };
-        let reference = render(&scene, &many, &Unobserved);
-        let noisy = film(&scene, &options(16));
-        let denoised = denoise(&noisy).expect("it has all");
-        let of = |film: &Film| pixels(film).flat_map(|(x, y)| film.radiance(x, y)).collect::<Vec<f64>>();
-        let (truth, before) = (of(&reference), of(&noisy));
-        let after: Vec<f64> = denoised.radiance.iter().map(|&x| f64::from(x)).collect();
-        let error = |picture: &[f64]| {
-            let square = |(x, r): (&f64, &f64)| (x - r) * (x - r) / (r * r + 0.01);
-            let mut errors: Vec<f64> = picture.iter().zip(&truth).map(square).collect();
-            errors.sort_by(f64::total_cmp);
-            [errors.len(), errors.len() - errors.len().div_ceil(1000)].map(|end| errors[..end].iter().sum::<f64>())
-        };
+        let of = Pictures::new(&lamps_in_a_ball("Mirror(reflectance: 0.9)", radius, background), 16);
         let case = format!("radius {radius}, background {background}");
-        let ([whole, trimmed], [whole_after, trimmed_after]) = (error(&before), error(&after));
+        let [[whole, trimmed], [whole_after, trimmed_after]] = of.errors();
         assert!(whole_after <= 1.02 * whole && trimmed_after <= trimmed, "{case}: {whole_after} {trimmed_after}");
-        let sum = |picture: &[f64]| picture.iter().sum::<f64>();
-        let energy = sum(&after) / sum(&before);
+        let energy = of.energy();
         assert!((energy - 1.0).abs() < 0.005, "{case}: {energy}");
         // Of the ball, where it shows nothing.
-        let mean = sum(&truth) / truth.len() as f64;
-        let black = |k: &usize| background == 0.0 && truth[*k] < 1e-3 * mean && before[*k] == 0.0;
-        let brightest = (0..truth.len()).filter(black).map(|k| after[k]).fold(0.0, f64::max);
+        let mean = of.truth.iter().sum::<f64>() / of.truth.len() as f64;
+        let black = |k: &usize| background == 0.0 && of.truth[*k] < 1e-3 * mean && of.before[*k] == 0.0;
+        let brightest = (0..of.truth.len()).filter(black).map(|k| of.after[k]).fold(0.0, f64::max);
         assert!(brightest < 0.1 * mean, "{case}: {brightest}");
     }
+}
+
+/// Nor what nearly is a mirror shows of them: the error without the worst thousandth was 20 to 57 times what it is
+/// without denoising (three seeds each with roughness 0.02 and 0.05; of gloss 15 to 28 times), and is 0.30 to 0.88 of
+/// that now. Up to 9 % of the light were lost, and 1 % now.
+#[test]
+fn small_lamps_in_polished_metal_stay() {
+    for material in
+        ["Conductor(reflectance: 0.9, roughness: 0.02)", "BlinnPhong(albedo: 0.1, exponent: 1e5, specular: 0.9)"]
+    {
+        let of = Pictures::new(&lamps_in_a_ball(material, 0.06, 0.05), 16);
+        let ([[_, before], [_, after]], energy) = (of.errors(), of.energy());
+        assert!(after < before && (energy - 1.0).abs() < 0.02, "{material}: {before} to {after}, {energy}");
+    }
+}
+
+/// Nor what is seen of them behind two panes, each of which is two surfaces of glass. With 8 samples 1.7 to 6.8 % of
+/// the light was lost (three seeds), and is 0.4 to 0.6 % now.
+#[test]
+fn small_lamps_behind_two_panes_stay() {
+    let lamps: String = (0..7)
+        .map(|k| {
+            let (x, y) = (0.4 * f64::from(k) - 1.2, 0.5 + 0.2 * f64::from(k % 3));
+            format!("SphereLight(center: ({x}, {y}, -0.5), radius: 0.03, radiance: 150),")
+        })
+        .collect();
+    let text = format!(
+        "Scene(camera: Camera(position: (0, 1.4, 4), look_at: (0, 0.5, 0), fov: 40), \
+         image: Image(width: 96, height: 96), background: 0.05, lights: [{lamps}], objects: [\
+         Plane(material: Diffuse(albedo: 0.5)), Box(center: (0, 1, -2), size: (5, 2, 0.1), material: Diffuse()), \
+         Box(center: (0.2, 0.8, 2), size: (2.6, 1.5, 0.03), material: Transparent(ior: 1.5, transmittance: 0.8)), \
+         Box(center: (0.2, 0.8, 1.6), size: (2.6, 1.5, 0.03), material: Transparent(ior: 1.5))])"
+    );
+    let of = Pictures::new(&text, 8);
+    let ([[_, before], [_, after]], energy) = (of.errors(), of.energy());
+    assert!(after < 0.75 * before && (energy - 1.0).abs() < 0.012, "{before} to {after}, {energy}");
 }

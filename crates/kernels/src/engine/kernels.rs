@@ -24,7 +24,7 @@ pub struct Kernels {
     closest: unsafe fn(&SphereTable, &mut Batch),
     first_hits: unsafe fn(&Scene, u32, LayerSet, &mut Batch),
     seen: unsafe fn(&Scene, LayerSet, u32, &mut Batch),
-    lamps: unsafe fn(&Scene, &mut Batch),
+    lamps: unsafe fn(&Scene, u32, &mut Batch),
     shade: unsafe fn(&Scene, Pass<'_>, u32, &mut Batch),
     ambient: unsafe fn(&Scene, u32, f32, &mut Batch),
     occluded: unsafe fn(&SphereTable, &mut Batch),
@@ -60,8 +60,8 @@ macro_rules! kernels {
                 seen::seen::<$lanes>(scene, layers, vertex, batch)
             }
             $(#[target_feature(enable = $features)])?
-            fn lamps_entry(scene: &Scene, batch: &mut Batch) {
-                seen::lamps::<$lanes>(scene, batch)
+            fn lamps_entry(scene: &Scene, vertex: u32, batch: &mut Batch) {
+                seen::lamps::<$lanes>(scene, vertex, batch)
             }
             $(#[target_feature(enable = $features)])?
             fn shade_entry(scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
@@ -190,10 +190,10 @@ impl Kernels {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
         unsafe { (self.seen)(scene, layers, vertex, batch) }
     }
-    /// What the paths show of lamps, straight or over mirrors and glass only.
-    pub fn lamps(&self, scene: &Scene, batch: &mut Batch) {
+    /// What the paths show of lamps, straight or over mirrors and glass only, or in what is nearly a mirror.
+    pub fn lamps(&self, scene: &Scene, vertex: u32, batch: &mut Batch) {
         // SAFETY: as in `camera`: the CPU has the features of the level whose entry this is.
-        unsafe { (self.lamps)(scene, batch) }
+        unsafe { (self.lamps)(scene, vertex, batch) }
     }
     /// Shades the hits of a vertex.
     pub fn shade(&self, scene: &Scene, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {

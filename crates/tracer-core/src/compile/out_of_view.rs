@@ -16,10 +16,10 @@ pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
     if matches!(desc.background, Background::Environment(_)) {
         return None;
     }
-    // What has no end is in view somewhere.
-    if scene.shapes.iter().any(|shape| shape.unit.is_endless()) || scene.camera.stereo.is_some() {
+    if scene.camera.stereo.is_some() {
         return None;
     }
+    let is_endless = scene.shapes.iter().any(|shape| shape.unit.is_endless());
     let few = scene.size[0].min(scene.size[1]).max(1);
     // A pixel's filter reaches some pixels beyond the border; of a normal one next to nothing is left at eight sigma.
     let reach = match scene.camera.filter {
@@ -47,7 +47,8 @@ pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
     let objects = || of_tree.clone().chain(loose.clone().filter(|sphere| is_object(sphere.object)).map(of_sphere));
     if let Some([width, height]) = speck(scene, objects()) {
         let way = scene.camera.eye.distance(objects().next().map_or(DVec3::ZERO, |[low, high]| 0.5 * (low + high)));
-        let message = format!("all that the scene has is seen in {width}x{height} pixels");
+        let beside = if is_endless { " beside its planes" } else { "" };
+        let message = format!("all that the scene has{beside} is seen in {width}x{height} pixels");
         let far = format!("the camera is {} away from it", rounded(way / scene.frame.scale));
         let mend = mesh_brought(desc, &scene.camera, &scene.frame)
             .map_or(String::new(), |steps| format!(" A mesh is brought there by {steps}"));
@@ -56,6 +57,10 @@ pub fn warning(desc: &SceneDesc, scene: &Scene) -> Option<Diagnostic> {
                 .expected("a camera near enough to see it")
                 .hint(format!("{far}: move it nearer, or is one of the two in other units?{mend}")),
         );
+    }
+    // What has no end is in view somewhere.
+    if is_endless {
+        return None;
     }
     let mut any = false;
     let outside = all().inspect(|_| any = true).all(|ends| beside(&ends));

@@ -97,11 +97,14 @@ pub fn met(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
     lamps(engine, pass, vertex, batch);
 }
 
-/// What the rays of a vertex show of lamps, where that is told apart: as long as glass is followed both ways. Farther
-/// on chance chooses a way, and what is left to it has noise that denoising is for.
+/// Behind so many mirrors and surfaces of glass lamps are told apart: behind three panes. Where glass is followed both
+/// ways, up to [`BRANCHING`], and farther on, where chance nearly always lets light pass.
+const LAMPS_BEHIND: u32 = 2 * BRANCHING;
+
+/// What the rays of a vertex show of lamps, where that is told apart.
 pub fn lamps(engine: Engine<'_>, pass: Pass<'_>, vertex: u32, batch: &mut Batch) {
-    if pass.lamps && vertex <= BRANCHING {
-        engine.kernels.lamps(engine.scene, batch);
+    if pass.lamps && vertex <= LAMPS_BEHIND {
+        engine.kernels.lamps(engine.scene, vertex, batch);
         batch.watch.lap(Stage::Layers);
     }
 }

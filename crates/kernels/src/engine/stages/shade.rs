@@ -11,7 +11,7 @@ mod scatter;
 mod sharing;
 mod vertex;
 
-pub use mis::weight_of_ratio;
+pub use mis::{power_heuristic, weight_of_ratio};
 pub use vertex::{Ray, Vertex, has, leaves};
 
 use super::cameras::View;
