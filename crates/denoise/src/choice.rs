@@ -12,7 +12,7 @@ const BLUR: usize = 2;
 /// The square over which brightness is found, in units of which errors count.
 const BRIGHTNESS: usize = 3;
 /// How far away a choice depends on pixels.
-pub const REACH: usize = 2 * SQUARE + 2 * BLUR + BRIGHTNESS + 1;
+pub const REACH: usize = 2 * SQUARE + 2 * BLUR + BRIGHTNESS;
 /// What there was before is kept only where its error is less by this share.
 const MARGIN: f32 = 0.1;
 /// Errors of what is darker than this, in units of the picture's mean, count as if it were so bright.
@@ -20,8 +20,8 @@ const DARK: f32 = 0.1;
 
 /// Squares of what both halves have alike count from so many times their noise on.
 const PEAK: f32 = 16.0;
-/// What is darker counts where more than this share of the pixels that touch it, and it, are.
-const DARK_AROUND: f32 = 0.6;
+/// The square whose noise counts, too, for what is darker.
+const WIDE: usize = 3;
 
 /// What was chosen.
 pub struct Chosen {
@@ -117,13 +117,12 @@ pub fn choose(prepared: &Prepared, last: &Chosen, filtered: &Filtered) -> Chosen
 /// Halves that were filtered, but as they were where both say that the filter has taken too much: a lamp in a mirror,
 /// two pixels wide, is lost in the squares that errors are summed over. What both differ by from the filtered other
 /// one has the square of the filter's error as its mean product; it counts where it is far above the noise around,
-/// which normal noise makes once in ten million pixels. Of what is darker than the filtered a single pixel says
-/// nothing: light that one sample in a hundred finds is in neither half of most pixels, which were black dots in what
-/// others had found.
+/// which normal noise makes once in ten million pixels. What is darker than the filtered must be far above the noise of
+/// a square, too: light that one sample in a hundred finds is in neither half of most pixels, which were black
+/// dots in what others had found.
 fn with_peaks(prepared: &Prepared, blended: [Colours; 2]) -> [Colours; 2] {
-    let (width, height) = (prepared.width, prepared.height);
-    // 1 for what is brighter, -1 for what is darker.
-    let peaks = Plane::of(width, height, |k| {
+    let around = prepared.variance.blurred(WIDE);
+    let is_peak = |k: usize| {
         let (mut product, mut difference, mut above) = (0.0, 0.0, 0.0);
         for c in 0..3 {
             let [one, other] = prepared.halves.each_ref().map(|half| half[c].values[k]);
@@ -132,15 +131,13 @@ fn with_peaks(prepared: &Prepared, blended: [Colours; 2]) -> [Colours; 2] {
             difference += (one - other) * (one - other);
             above += to_one + to_other;
         }
-        let is_peak = product > PEAK * prepared.variance.values[k].max(0.5 * difference);
-        if is_peak { f32::copysign(1.0, above) } else { 0.0 }
-    });
-    let dark = Plane::of(width, height, |k| (-peaks.values[k]).max(0.0)).blurred(1);
-    let is_peak = |k: usize| peaks.values[k] > 0.0 || peaks.values[k] < 0.0 && dark.values[k] > DARK_AROUND;
+        let noise = prepared.variance.values[k].max(0.5 * difference);
+        product > PEAK * if above < 0.0 { noise.max(around.values[k]) } else { noise }
+    };
     [0, 1].map(|half| {
         [0, 1, 2].map(|c| {
             let (noisy, blended) = (&prepared.halves[half][c].values, &blended[half][c].values);
-            Plane::of(width, height, |k| if is_peak(k) { noisy[k] } else { blended[k] })
+            Plane::of(prepared.width, prepared.height, |k| if is_peak(k) { noisy[k] } else { blended[k] })
         })
     })
 }

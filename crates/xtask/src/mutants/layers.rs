@@ -1,6 +1,6 @@
 //! Faults in picture layers.
 
-use super::{Mutant, proofs};
+use super::{Mutant, proofs, suite};
 
 const FILM: &str = "crates/tracer-core/src/film/layers.rs";
 
@@ -68,6 +68,20 @@ pub const MUTANTS: &[Mutant] = &[
         find: "weight: ray.throughput.scale(ray.eta2),",
         replace: "weight: ray.throughput,",
         caught_by: proofs(&["layers::mirrors_and_glass_show_what_guides_denoisers"]),
+    },
+    Mutant {
+        name: "polished-metals-show-no-lamps",
+        file: "crates/kernels/src/engine/stages/seen.rs",
+        find: "const SHARP: f32 = 20.0;",
+        replace: "const SHARP: f32 = 1e30;",
+        caught_by: suite("denoise", &["small_lamps_in_polished_metal_stay"]),
+    },
+    Mutant {
+        name: "two-panes-hide-lamps",
+        file: "crates/tracer-core/src/engine/trace.rs",
+        find: "const LAMPS_BEHIND: u32 = 2 * BRANCHING;",
+        replace: "const LAMPS_BEHIND: u32 = BRANCHING;",
+        caught_by: suite("denoise", &["small_lamps_behind_two_panes_stay"]),
     },
     Mutant {
         name: "misses-do-not-count",
