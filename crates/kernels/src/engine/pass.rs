@@ -33,7 +33,7 @@ pub struct Pass<'a> {
     pub task: Task,
     /// What is kept of the first hits of the picture's camera rays.
     pub layers: LayerSet,
-    /// What is seen of lamps, straight or over mirrors and glass only, is told apart.
+    /// What is seen of lamps, straight, over mirrors and glass or in what nearly is a mirror, is told apart.
     pub lamps: bool,
 }
 

@@ -17,8 +17,8 @@ pub struct LayerSamples {
     pub hits: [u64; ITEMS],
     /// A row for each slot where a layer asks for it.
     pub direct: Vec<DirectLight>,
-    /// What paths have seen of lamps, straight or over mirrors and glass only, a row for each slot where that is told
-    /// apart ([`Pass::lamps`](crate::engine::pass::Pass::lamps)): as much as they have added of it to the slot's
+    /// What paths have seen of lamps, straight, over mirrors and glass or nearly so, a row for each slot where that is
+    /// told apart ([`Pass::lamps`](crate::engine::pass::Pass::lamps)): as much as they have added of it to the slot's
     /// sample.
     pub lamps: Vec<[f32; 3]>,
 }

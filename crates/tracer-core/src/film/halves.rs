@@ -22,8 +22,8 @@ pub(super) struct TileHalf {
     samples: [u32; PIXELS],
     /// Where its light paths have fallen.
     splats: Option<Box<Sums>>,
-    /// What samples of either half have seen of lamps, straight or over mirrors and glass only, where they have; and of
-    /// the background, where the film keeps that by itself.
+    /// What samples of either half have seen of lamps, straight, over mirrors and glass or nearly so, where they have;
+    /// and of the background, where the film keeps that by itself.
     lamps: Option<Box<[Sums; 2]>>,
     /// The layer `denoising_albedo` of its samples, where the film has that; of those that have hit something where the
     /// film keeps the background by itself.
