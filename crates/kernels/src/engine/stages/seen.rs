@@ -63,7 +63,8 @@ pub fn seen<F: Lanes>(scene: &Scene, layers: LayerSet, vertex: u32, batch: &mut 
 /// rough as 0.25.
 const SHARP: f32 = 20.0;
 /// And they count at least so much beside light samples: where these are far better little of the noise is the rays'.
-/// With 100 and 0.9 metals of 0.1 to 0.2 had two to five times the error (docs/denoise.md), with 5 and 0.1 as much.
+/// With 100 and 0.9 metals of 0.1 to 0.2 had 1.3 to 5.5 times the error of denoised pictures (fifteen small lamps over
+/// a ball, 16 samples, two seeds each, without the worst thousandth), with 5 and 0.1 0.77 to 1.04 times.
 const OWN_WEIGHT: f32 = 0.3;
 
 /// Adds to `batch.layers.lamps` what the rays in `batch.paths` add of lamps to their samples, of paths that have met
