@@ -81,6 +81,7 @@ fn no_folder(folder: &Path) -> String {
 /// What to do where a file cannot be written.
 pub fn advice(why: &io::Error) -> &'static str {
     match why.kind() {
+        io::ErrorKind::FileTooLarge => "the system allows no file of this size here (ulimit -f): name another place",
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there, or name another place",
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => "name a place where you may write",
         _ => "name another place, should that stay so",

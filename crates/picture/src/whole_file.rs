@@ -67,6 +67,8 @@ pub enum OutputKind {
     Page,
     /// The drawing of a path: SVG.
     Drawing,
+    /// Where marks are: TikZ or SVG.
+    Marks,
 }
 
 impl OutputKind {
@@ -77,6 +79,7 @@ impl OutputKind {
             OutputKind::Junit => "JUnit report of tracer",
             OutputKind::Page => "page of golden pictures",
             OutputKind::Drawing => "drawing of tracer inspect",
+            OutputKind::Marks => "file of tracer marks",
         }
     }
 
@@ -105,6 +108,10 @@ impl OutputKind {
             OutputKind::Junit => text.starts_with("<?xml") && text.contains("name=\"tracer golden\""),
             OutputKind::Page => text.starts_with("<!doctype html>") && text.contains("<h1>Golden pictures"),
             OutputKind::Drawing => text.starts_with("<svg") && text.contains(", sample "),
+            OutputKind::Marks => {
+                text.starts_with("% tracer marks: ")
+                    || text.starts_with("<svg") && text.contains("<!-- tracer marks -->")
+            }
         }
     }
 }

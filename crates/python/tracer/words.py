@@ -106,7 +106,7 @@ _PickFields = TypedDict("_PickFields", {
 class Pick(_PickRequired, _PickFields, total=False):
     """One of several values, by a number: `Pick(from: ["red", "blue"], index: "=i")`.
 
-    from: The values: anything that may stand where the pick does.
+    from: The values, a thousand at most: anything that may stand where the pick does.
     index: Which of them, counted from 0; after the last one the first follows again.
     """
 

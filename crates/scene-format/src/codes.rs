@@ -538,8 +538,8 @@ codes! {
 
     /// Repetitions and includes make more than a scene can hold: ten million items, or more than eight within each
     /// other; groups stand more than sixteen deep, or a scene has more than a hundred million objects, copies counted;
-    /// more than 256 files are included; or `vars` have more than sixteen lists within each other, or more than two
-    /// hundred wait for each other. Or a `Union`, an `Intersection` or a `Difference` is made of more than 64 shapes:
+    /// more than 256 files are included; or `vars` have more than sixteen lists within each other, or more than 64
+    /// wait for each other. Or a `Union`, an `Intersection` or a `Difference` is made of more than 64 shapes:
     /// make several solids of it that stand side by side, each with the shapes that meet it (a wall of ten windows in
     /// five pieces), or a mesh in another program.
     TOO_MUCH "E0606" "repetitions or vars that make too much";

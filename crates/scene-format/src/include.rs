@@ -63,8 +63,7 @@ impl Library {
         let tree = parse(text, syntax, &mut Sink::default());
         let Some(root) = tree.root() else { return };
         for (_, list) in root.fields().filter(|(key, _)| key.text() == "include") {
-            let names: Vec<Item<'_, '_>> = list.children().collect();
-            names.into_iter().for_each(|name| self.add(name, source, folder, base_dir));
+            self.add_all(list, source, folder, base_dir);
         }
         self.look_in(&tree, source, folder, base_dir);
     }
@@ -83,25 +82,36 @@ impl Library {
             };
             let file = body.fields().find(|(key, _)| key.text() == "file");
             if let Some((_, name)) = file {
-                self.add(name, source, folder, base_dir);
+                self.add_all(name, source, folder, base_dir);
             }
         }
     }
 
     fn look_at_override(&mut self, argument: &str, source: usize, base_dir: &Path) {
-        let Some(equals) = argument.find('=').filter(|_| argument.contains("nclude")) else { return };
+        let names = |argument: &str| argument.contains("nclude") || argument.contains(".file");
+        let Some(equals) = argument.find('=').filter(|_| names(argument)) else { return };
         let mut builder = Builder::new(0);
         ron::parse_from(argument, equals + 1, &mut builder, &mut Sink::default());
         let texts = vec![Text { text: argument, syntax: Syntax::Ron, folder: Path::new("") }];
         let tree = Tree { texts, nodes: builder.nodes, ..Tree::default() };
-        if argument[..equals].trim().starts_with("include") {
-            for index in 0..tree.nodes.len() {
-                if let Some(name) = tree.item(index) {
-                    self.add(name, source, Path::new(""), base_dir);
-                }
-            }
+        let field = argument[..equals].trim();
+        if let Some(value) = tree.item(0).filter(|_| field.starts_with("include")) {
+            self.add_all(value, source, Path::new(""), base_dir);
+        }
+        // A field called `file` may be that of an `Include`, where it names a scene.
+        let is_scene = |name: &Item<'_, '_>| Syntax::from_path(Path::new(&*name.text())).is_some();
+        if let Some(name) = tree.item(0).filter(|_| field.ends_with(".file"))
+            && name.texts().any(|name| is_scene(&name))
+        {
+            self.add_all(name, source, Path::new(""), base_dir);
         }
         self.look_in(&tree, source, Path::new(""), base_dir);
+    }
+
+    /// All names that a value may come to, be it picked or repeated.
+    fn add_all(&mut self, value: Item<'_, '_>, source: usize, folder: &Path, base_dir: &Path) {
+        let names: Vec<Item<'_, '_>> = value.texts().filter(|name| !name.text().starts_with('=')).collect();
+        names.into_iter().for_each(|name| self.add(name, source, folder, base_dir));
     }
 
     fn add(&mut self, name: Item<'_, '_>, source: usize, folder: &Path, base_dir: &Path) {
@@ -113,7 +123,16 @@ impl Library {
             return;
         }
         let whole = base_dir.join(&path);
-        let (text, fault) = match self.read(&whole) {
+        /// What a `Mesh` places.
+        const MESHES: [&str; 6] = ["obj", "off", "ply", "stl", "gltf", "glb"];
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let is_mesh = ending.is_some_and(|ending| MESHES.contains(&&*ending));
+        let read = if is_mesh {
+            Err("it is a mesh, which stands in a scene: Mesh(file: ..)".to_owned())
+        } else {
+            self.read(&whole)
+        };
+        let (text, fault) = match read {
             Ok(text) => (text, None),
             Err(fault) => (String::new(), Some(fault)),
         };

@@ -39,6 +39,14 @@ pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     best.map(|(_, word)| word)
 }
 
+/// Whether the digits of two words are the same, as far as both have any: a kind that differs in them is no slip, as
+/// `F2` is not `F1`.
+pub(crate) fn has_same_number(one: &str, other: &str) -> bool {
+    let digits = |word: &str| word.chars().filter(char::is_ascii_digit).collect::<String>();
+    let (one, other) = (digits(one), digits(other));
+    one.is_empty() || other.is_empty() || one == other
+}
+
 /// What of a word tells cheaply that another one is far: most are.
 #[derive(Clone, Copy)]
 struct Sketch {

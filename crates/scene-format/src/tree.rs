@@ -275,6 +275,19 @@ impl<'t, 's> Item<'t, 's> {
         self.tree.included.iter().find(|file| *file.path == *path)
     }
 
+    /// How many files are included.
+    pub fn included_files(&self) -> usize {
+        self.tree.included.len()
+    }
+
+    /// The texts that stand in it, however deep; it may be one itself. What is added to lists from outside is not among
+    /// them.
+    pub fn texts(&self) -> impl Iterator<Item = Item<'t, 's>> {
+        let (tree, index) = (self.tree, self.index);
+        let all = (index..index + self.node.size as usize).filter_map(move |index| tree.item(index));
+        all.filter(|item| item.kind() == Kind::Text)
+    }
+
     /// What stands between two bytes of its text.
     pub fn text_between(&self, start: usize, end: usize) -> Option<&'s str> {
         let text: &'s str = self.source().text;

@@ -218,3 +218,64 @@ fn a_pick_is_the_value_that_it_picks() {
     assert!(toml.matches("Pick").count() == 5, "{toml}");
     assert_eq!(hash_hex(&read(&toml, Syntax::Toml)), wanted, "{toml}");
 }
+
+/// A group with a step that goes by all that is in it is written as one group, whatever groups are in it.
+#[test]
+fn groups_in_groups_are_written_as_they_stand() {
+    let text = r#"Scene(background: 1, objects: [
+        Group(transform: [DropTo(0)], objects: [
+            Box(center: (0, 3, 0)),
+            Group(placements: [[], [Translate((2, 0, 0))]], objects: [
+                Sphere(radius: 0.5, center: (0, 1, 0)),
+                Group(transform: [CenterTo((0, 0, 0))], objects: [Box(name: "a"), Box(name: "b")]),
+            ]),
+            Group(placements: [[]], objects: [Sphere(radius: 1)]),
+        ]),
+        Group(transform: [Scale(2)], objects: [Box(), Box()]),
+        Box(),
+    ])"#;
+    let scene = read(text, Syntax::Ron);
+    for (syntax, defaults) in [
+        (Syntax::Ron, Defaults::Hidden),
+        (Syntax::Ron, Defaults::Shown),
+        (Syntax::Toml, Defaults::Shown),
+        (Syntax::Json, Defaults::Hidden),
+    ] {
+        let written = to_text(&scene, syntax, defaults);
+        let again = read(&written, syntax);
+        assert_eq!(written.matches("Group").count(), 5, "{written}");
+        for step in ["DropTo", "CenterTo"] {
+            assert_eq!(written.matches(step).count(), 1, "{written}");
+        }
+        assert_eq!((hash_hex(&again), copies(&again)), (hash_hex(&scene), copies(&scene)), "{written}");
+    }
+}
+
+/// In TOML the text "None" says that there is no name: so nothing is called so.
+#[test]
+fn nothing_is_called_none() {
+    for object in [
+        "Box(name: \"None\")",
+        "Mesh(file: \"a.obj\", part: \"None\")",
+        "Box(material: Emissive(radiance: 1, group: \"None\"))",
+    ] {
+        let found = errors(&format!("Scene(background: 1, objects: [{object}])"), Syntax::Ron);
+        assert!(found.len() == 1 && found[0].message == "\"None\" is no name", "{object}: {found:?}");
+    }
+    read("background = 1\nobjects = [{ Box = { name = \"None\" } }]", Syntax::Toml);
+}
+
+/// What stands no times is not what stands once.
+#[test]
+fn placements_that_come_to_none_are_told() {
+    let scene = |count: u32| {
+        format!(
+            "Scene(background: 1, vars: {{ \"n\": {count} }}, objects: [Box(placements: [Repeat(count: \"=n\", \
+             items: [[Translate((\"=2*i\", 0, 0))]])])])"
+        )
+    };
+    assert_eq!(copies(&read(&scene(2), Syntax::Ron)), [2]);
+    let found = errors(&scene(0), Syntax::Ron);
+    assert!(found.len() == 1 && found[0].message.contains("come to none"), "{found:?}");
+    assert_eq!(copies(&read("Scene(background: 1, objects: [Box(placements: [])])", Syntax::Ron)), [1]);
+}

@@ -397,3 +397,31 @@ fn too_many_files_are_told_once() {
     let too_many = diagnostics.iter().filter(|fault| fault.code == "E0606").count();
     assert_eq!(too_many, 1, "{diagnostics:#?}");
 }
+
+/// Files are found wherever their names may come from, and what is wrong is told once.
+#[test]
+fn files_that_are_picked_repeated_and_set() {
+    let part = "Scene(objects: [Box(center: (0, 1, 0)), Box()])";
+    let files = |room: &'static str| {
+        [("a.ron", part), ("b.ron", "Scene(objects: [Box()])"), ("c.ron", "Scene(vars: {})"), ("room.ron", room)]
+    };
+    let objects = |name: &str, room: &'static str, set: &[&str]| {
+        let folder = folder(name, &files(room));
+        let set: Vec<Override> = set.iter().map(|set| Override::from(*set)).collect();
+        load_with(&folder.join("room.ron"), &set).map(|loaded| loaded.scene.objects.len())
+    };
+    let picked = "Scene(background: 1, objects: [Include(file: Pick(from: [\"a.ron\", \"b.ron\"], index: 1))])";
+    assert_eq!(objects("picked", picked, &[]).expect("a scene"), 1);
+    let repeated = "Scene(background: 1, include: [Repeat(count: 1, items: [\"c.ron\"])], objects: [Box()])";
+    assert_eq!(objects("repeated", repeated, &[]).expect("a scene"), 1);
+    let set = "Scene(background: 1, objects: [Include(file: \"b.ron\", name: \"part\")])";
+    assert_eq!(objects("set", set, &["objects.part.file=\"a.ron\""]).expect("a scene"), 2);
+    let faults = |name: &str, room: &'static str| match objects(name, room, &[]) {
+        Err(LoadError::Invalid { diagnostics, .. }) => diagnostics,
+        other => panic!("{other:?}"),
+    };
+    let wrong = faults("wrong", "Scene(background: 1, includes: [\"a.ron\"], objects: [Box()])");
+    assert!(wrong.len() == 1 && wrong[0].hint.contains("include"), "{wrong:?}");
+    let mesh = faults("mesh", "Scene(background: 1, objects: [Include(file: \"chair.OBJ\")])");
+    assert!(mesh.len() == 1 && mesh[0].message.contains("it is a mesh"), "{mesh:?}");
+}

@@ -28,6 +28,9 @@ fn a_checkerboard_of_one_square_is_told() {
         }
     }
     assert!(of("Box(", "a: 0.5, b: 0.5").is_empty());
+    let shifted = of_object("Box(material: Diffuse(albedo: Checkerboard(mapping: Uv(offset: (1, 2)))))");
+    let told = load_str("scene", &shifted, Syntax::Ron, Path::new(""), &[]).expect("a scene").warnings;
+    assert!(told.len() == 1 && told[0].message.ends_with("only its `b` is seen"), "{told:?}");
     // What has no end shows more; coordinates of meshes are their own, and polygons may have others.
     assert!(of("Plane(", "").is_empty());
     assert!(of("Mesh(points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]], ", "").is_empty());

@@ -542,6 +542,12 @@ fn what_is_not_certain_stays() {
         ("Box(size: 1), new THREE.Mesh(geometry, material), Box(size: 2)", 1),
         ("Box(size: 1),\n/  Box(size: 2),\n  Box(size: 3)", 1),
         ("Box(size: 1, material: \"wall 3\")", 1),
+        // Which of several is meant, and by what measure.
+        ("Box(transform: [FitTo(2)])", 1),
+        ("Box(length: 1, width: 2, height: 3)", 1),
+        ("Torus(radius: 1, thickness: 0.4)", 1),
+        ("Box(material: Diffuse(albedo: Perlin()))", 1),
+        ("Box(material: Diffuse(albedo: Voronoi(feature: F2)))", 1),
         ("Box(size: 1),\n radius: 1, material: Mirror()),\n Box(size: 2)", 1),
         ("Box(size: 1),\n  b Sphere(center: (0, 0, 0), radius: 1)", 2),
     ] {

@@ -39,6 +39,11 @@ fn shapes_and_their_fields() {
     let cases = [
         ("Tube(path: [(0, 0, 0), (1, 0, 0)], radius: 0.1)", "did you mean `points`?"),
         ("Tube(points: [(0, 0, 0), (1, 0, 0)], thickness: 0.1)", "write `radius: 0.05`"),
+        (
+            "Torus(radius: 1, thickness: 0.4)",
+            "the `tube_radius` is half of the size from side to side: write `tube_radius: 0.2`",
+        ),
+        ("Box(transform: [Rotate(z: \"=30*2\")])", "write `axis: (0, 0, 1), degrees: \"=30*2\"`"),
         ("Tube(points: [(0, 0, 0), (1, 0, 0)], width: \"=2*pi\")", "write `radius: \"=(2*pi)/2\"`"),
         ("Lathe(profile: [(1, 0), (0, 1)], axis: (0, 0, 1))", "Align(to: (0, 0, 1))"),
         ("Lathe(profile: [(1, 0), (0, 1)], thickness: 0.1)", "up outside, and down again inside"),

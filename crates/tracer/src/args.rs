@@ -8,6 +8,7 @@ mod farm;
 mod fmt;
 mod golden;
 mod inspect;
+mod marks;
 mod merge;
 mod preview;
 mod render;
@@ -22,6 +23,7 @@ pub use farm::{FarmArgs, FarmCancelArgs, FarmCommand, FarmSlurmArgs, FarmStatusA
 pub use fmt::FmtArgs;
 pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};
 pub use inspect::{InspectArgs, InspectForm};
+pub use marks::{MarksArgs, MarksForm};
 pub use merge::MergeArgs;
 pub use preview::{PreviewArgs, TerminalName};
 pub use render::{Frames, IntegratorName, RenderArgs};
@@ -38,7 +40,8 @@ use std::time::Duration;
 use tracer_core::{Crop, Layer, LayerSet, Split};
 
 const EXAMPLES: &str = "\
-More: inspect repro bench-acceleration bench-figures lsp schema completions man
+More: inspect marks convert repro bench-acceleration bench-figures
+More: lsp schema completions man
 Examples:
   tracer new ball.ron && tracer ball.ron
   tracer render scenes/fig4.ron -o fig4.png --samples 100
@@ -119,6 +122,8 @@ pub enum Command {
     Golden(GoldenArgs),
     /// Tell how one sample of a pixel came about
     Inspect(Box<InspectArgs>),
+    /// Tell where a scene's marks are in its picture, for labels
+    Marks(Box<MarksArgs>),
     /// Time a scene with no boxes, one per mesh, a tree
     BenchAcceleration(BenchAccelerationArgs),
     /// Time the report's figures at its own settings

@@ -12,7 +12,8 @@ use std::time::{Duration, Instant};
 static ASKED: AtomicU8 = AtomicU8::new(0);
 
 /// A terminal that goes away sends SIGHUP, and so does the shell in it; a scheduler sends SIGTERM to all processes of a
-/// job, and so does the script that it has started. Within this time it is one wish.
+/// job, and so does the script that it has started; the end of a session sends one after the other. Within this time it
+/// is one wish.
 #[cfg(unix)]
 const ONE_WISH: Duration = Duration::from_secs(1);
 
@@ -36,7 +37,8 @@ fn by_system(shell: Shell) -> std::io::Result<()> {
     std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
         let mut last: Option<(i32, Instant)> = None;
         for signal in &mut signals {
-            let again = last.is_some_and(|(before, at)| before == signal && at.elapsed() < ONE_WISH);
+            // None of them is a person's, who presses Ctrl-C twice and means it.
+            let again = last.is_some_and(|(before, at)| before != SIGINT && at.elapsed() < ONE_WISH);
             if again && signal != SIGINT {
                 continue;
             }
@@ -49,6 +51,17 @@ fn by_system(shell: Shell) -> std::io::Result<()> {
         }
     })?;
     Ok(())
+}
+
+/// From now on a file that would be larger than the system allows (`ulimit -f`) is an error of its writing, as a full
+/// disk is, and does not end the program.
+///
+/// # Errors
+/// When the system lets nobody say so.
+#[cfg(unix)]
+pub fn outlive_large_files() -> std::io::Result<()> {
+    use signal_hook::consts::SIGXFSZ;
+    signal_hook::flag::register(SIGXFSZ, std::sync::Arc::default()).map(drop)
 }
 
 /// The signals that were ignored when the program started, as Linux tells, bit `n - 1` for signal `n`; elsewhere all

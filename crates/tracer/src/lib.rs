@@ -64,6 +64,9 @@ pub fn main() -> ExitCode {
         (false, true) => Verbosity::Verbose,
     };
     let shell = Shell::new(cli.color, verbosity, cli.allow);
+    // Where the system does not let us, such a file ends the program, as it always did.
+    #[cfg(unix)]
+    let _ = interrupt::outlive_large_files();
     commands::run(&cli.command, &shell, started).unwrap_or_else(|failure| {
         if let Failure::Wrong(error) | Failure::CouldNot(error) = &failure {
             match form(&cli.command) {

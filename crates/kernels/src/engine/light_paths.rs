@@ -21,9 +21,11 @@ pub struct LightPaths {
     pub seed: u32,
     /// Those of one sample index.
     pub shares: Vec<Share>,
-    /// Pair of light `l` and caster `c`, at `l` times the number of casters plus `c`, or [`NONE`].
+    /// Pair of light `l` and caster `c`, at `l` times the number of casters plus `c`, or [`NONE`]; the sky is a light
+    /// behind the numbered ones.
     pub pair_of: Vec<u32>,
-    /// Per pair: light paths of a sample index over the area of light that they start from.
+    /// Per pair: light paths of a sample index over the area of light that they start from, of the sky over that of
+    /// the disc before the caster.
     pub density: Vec<f32>,
     /// How far outside of the picture they count, in pixels.
     pub reach: f32,
@@ -41,7 +43,7 @@ impl LightPaths {
         let strays = |share: &Share| plan.pairs.strays[share.pair as usize];
         let shares: Vec<Share> = plan.shares(count).filter(|share| !strays(share)).collect();
         let casters = plan.casters.list.len();
-        let mut pair_of = vec![NONE; scene.lights.len() * casters];
+        let mut pair_of = vec![NONE; (scene.lights.len() + 1) * casters];
         let mut density = vec![0.0; plan.ends.len()];
         for share in &shares {
             let pair = share.pair as usize;

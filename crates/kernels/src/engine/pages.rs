@@ -19,7 +19,11 @@ impl<T: Pod> Pages<T> {
     pub fn zeroed() -> Self {
         match MmapMut::map_anon(size_of::<T>().max(1)) {
             Ok(map) => Pages { map, of: PhantomData },
-            Err(_) => handle_alloc_error(Layout::new::<T>()),
+            Err(_) => {
+                // So that who listens to the allocator knows what was refused.
+                let _ = Vec::<u8>::new().try_reserve_exact(size_of::<T>());
+                handle_alloc_error(Layout::new::<T>())
+            }
         }
     }
 }

@@ -32,17 +32,18 @@ impl Pool {
         Pool { batches: (0..threads.max(1)).map(|_| batch()).collect() }
     }
 
-    /// Has all threads do a work.
+    /// Has all threads do a work, this one among them.
     pub fn on_all(&self, work: &(impl Fn(&mut Batch) + Sync)) {
-        if let [batch] = &*self.batches {
-            work(&mut lock(batch));
-        } else {
-            std::thread::scope(|scope| {
-                for batch in &self.batches {
-                    scope.spawn(|| work(&mut lock(batch)));
+        let [mine, others @ ..] = &*self.batches else { return };
+        std::thread::scope(|scope| {
+            for batch in others {
+                // Where the system gives no more threads, those that there are do all of it.
+                if std::thread::Builder::new().spawn_scoped(scope, || work(&mut lock(batch))).is_err() {
+                    break;
                 }
-            });
-        }
+            }
+            work(&mut lock(mine));
+        });
     }
 
     /// Has the threads do pieces 0 .. `count` of a work, whoever is free the next one; the results in the order of the

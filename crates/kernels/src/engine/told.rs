@@ -286,7 +286,7 @@ pub fn beyond(scene: &Scene, direction: [f32; 3], pdf: Option<f32>) -> LightMet 
     let Some(environment) = &lights.environment else {
         return LightMet { radiance: scene.background, pdf: 0.0, weight: 1.0 };
     };
-    let (sampled, radiance) = lights::beyond(lights, environment, V3::<One>::splat(direction));
+    let lights::Beyond { sampled, radiance, .. } = lights::beyond(lights, environment, V3::<One>::splat(direction));
     let sampled = number(sampled);
     LightMet { radiance: vector(radiance), pdf: sampled, weight: met_weight(pdf, sampled) }
 }

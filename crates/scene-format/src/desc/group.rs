@@ -97,26 +97,42 @@ impl Words for Objects {
     }
 }
 
-/// The entries of a list that these objects are written as: what stands in the same groups is written in the same
-/// groups, all else by itself.
+/// The entries of a list that these objects are written as: what stands in the same group is written in one, all else
+/// by itself.
 pub(crate) fn entries(objects: &[Spanned<Object>]) -> impl Iterator<Item = &[Spanned<Object>]> + Clone {
-    let within = |object: &Spanned<Object>| object.value.placements().within().map(|within| Arc::clone(&within.groups));
-    let is_same = move |one: &Spanned<Object>, other: &Spanned<Object>| match (within(one), within(other)) {
-        (Some(groups), Some(others)) => Arc::ptr_eq(&groups, &others),
-        _ => false,
-    };
-    objects.chunk_by(is_same)
+    objects.chunk_by(|one, other| is_in_one_group(groups_of(one), groups_of(other)))
 }
 
 /// One of [`entries`].
 pub(crate) fn form_of_entry(objects: &[Spanned<Object>], all: bool) -> Form {
-    let groups = objects.first().and_then(|object| object.value.placements().within()).map(|within| &within.groups);
-    let mut forms: Vec<Form> = objects.iter().map(|object| object.value.form(all)).collect();
-    for group in groups.into_iter().flat_map(|groups| groups.outwards()) {
-        forms = vec![grouped(forms, group, all)];
-    }
-    // What stands in no group is alone.
-    forms.pop().unwrap_or(Form::Absent)
+    let objects: Vec<_> = objects.iter().map(|object| (object, groups_of(object))).collect();
+    // An entry is one form.
+    forms(&objects, all).pop().unwrap_or(Form::Absent)
+}
+
+fn groups_of(object: &Spanned<Object>) -> Option<&Groups> {
+    object.value.placements().within().map(|within| &*within.groups)
+}
+
+/// Whether the outermost group is the same.
+fn is_in_one_group(one: Option<&Groups>, other: Option<&Groups>) -> bool {
+    one.zip(other).is_some_and(|(one, other)| Arc::ptr_eq(&one.group, &other.group))
+}
+
+/// Objects, each with the groups that are to be written around it: from outside, so that a group stays one group,
+/// whatever groups are in it.
+fn forms(objects: &[(&Spanned<Object>, Option<&Groups>)], all: bool) -> Vec<Form> {
+    let entries = objects.chunk_by(|(_, one), (_, other)| is_in_one_group(*one, *other));
+    let form = |entry: &[(&Spanned<Object>, Option<&Groups>)]| match entry {
+        [(_, Some(outer)), ..] => {
+            let within: Vec<_> =
+                entry.iter().map(|&(object, of)| (object, of.and_then(|of| of.inner.as_deref()))).collect();
+            grouped(forms(&within, all), &outer.group, all)
+        }
+        [(object, None), ..] => object.value.form(all),
+        [] => Form::Absent,
+    };
+    entries.map(form).collect()
 }
 
 /// The words of a group with these objects.

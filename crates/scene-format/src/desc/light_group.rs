@@ -40,7 +40,7 @@ impl Words for LightGroup {
             return Some(LightGroup::default());
         }
         let item = item.without_some();
-        let name = reader.text(item, at)?;
+        let name = reader.name_text(item, at)?;
         let (message, expected) = if name == LightGroup::REST {
             let message = "\"rest\" is what the lights are called that are of no group".to_owned();
             (message, "another name, or no group".to_owned())

@@ -32,7 +32,7 @@ impl Words for Name {
         if item.is_word("None") {
             return Some(Name::default());
         }
-        let text = reader.text(item.without_some(), at)?;
+        let text = reader.name_text(item.without_some(), at)?;
         Some(Name::from(Some(text)))
     }
 

@@ -204,7 +204,9 @@ impl Parser<'_, '_> {
         let Some(value) = value else {
             let nouns: Vec<&str> = of.iter().map(|value| value.noun()).collect();
             let message = format!("`{sign}` does not go with {}", suggest::join(&nouns, "and"));
-            let fault = self.fault(codes::EXPRESSION_TYPE, at, &message, "numbers, or vectors of one length");
+            let expected =
+                if matches!(sign, "<" | ">" | "<=" | ">=") { "numbers" } else { "numbers, or vectors of one length" };
+            let fault = self.fault(codes::EXPRESSION_TYPE, at, &message, expected);
             return self.unless_idle(fault);
         };
         if value.is_finite() {

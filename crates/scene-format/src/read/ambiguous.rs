@@ -267,8 +267,10 @@ fn across(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
     const ROUND: [&str; 8] = ["Sphere", "Disk", "SphereLight", "Torus", "Cylinder", "Cone", "Capsule", "Ring"];
     let &Unknown { def, name, value, item, .. } = unknown;
     let is_size = name == "size" && ROUND.contains(&def.name)
-        || matches!(name, "thickness" | "width" | "size") && matches!(def.name, "Tube" | "Arrow");
-    if !is_size || is_written(unknown, "radius") {
+        || matches!(name, "thickness" | "width" | "size") && matches!(def.name, "Tube" | "Arrow")
+        || name == "thickness" && def.name == "Torus";
+    let radius = if name == "thickness" && def.name == "Torus" { "tube_radius" } else { "radius" };
+    if !is_size || is_written(unknown, radius) {
         return None;
     }
     let write = |field: &str, value: &str| format!("{}{value}", Fields(item.syntax()).name(field));
@@ -282,10 +284,10 @@ fn across(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
         format!("a ball with three sizes from side to side is an ellipsoid: write `{mended}`")
     } else {
         let half = Part::Number(0.0).plus(0.5, &Part::of(value)?);
-        let half = write("radius", &half.written());
-        format!("the `radius` is half of the size from side to side: write `{half}`")
+        let half = write(radius, &half.written());
+        format!("the `{radius}` is half of the size from side to side: write `{half}`")
     };
-    Some(Together { hint: Some(hint), edit: None, fields: vec!["radius"] })
+    Some(Together { hint: Some(hint), edit: None, fields: vec![radius] })
 }
 
 /// The shape of a mesh of three.js.

@@ -61,7 +61,7 @@ const WORDS: &[(&[&str], &str)] = &[
         &["colorbar", "color bar", "colour bar", "legend"],
         "a bar of colours is a Rectangle with the ramp: Rectangle(size: (0.2, 2), material: Diffuse(albedo: \
          ColorRamp(input: Gradient(), stops: [(at: 0, color: \"#440154\"), (at: 1, color: \"#fde725\")]))); its \
-         numbers are written by another program, where `output: Output(marks: {..})` tells",
+         numbers are laid over the picture, where `output: Output(marks: {..})` and `tracer marks` tell",
     ),
     (
         &["axes", "coordinate axes", "coordinate system", "gizmo", "triad", "axes3d"],

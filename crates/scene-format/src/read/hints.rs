@@ -166,8 +166,8 @@ pub(super) fn kind_elsewhere(name: &str, def: &'static EnumDef) -> Option<&'stat
         ("Group", &["node", "collection", "shapegroup", "assembly"]),
         ("Checkerboard", &["checker", "checkers", "chess", "chessboard", "checkertexture"]),
         ("ThinLens", &["depthoffield", "dof", "bokeh", "lens", "thin"]),
-        ("Noise", &["perlin", "fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
-        ("Noise", &["turbulence", "fractalnoise", "perlinnoise", "spotted", "bumps", "simplex", "whitenoise"]),
+        ("Noise", &["fbm", "clouds", "wrinkled", "granite", "bozo", "windy", "noisetexture", "musgrave"]),
+        ("Noise", &["fractalnoise", "spotted", "bumps", "whitenoise"]),
         ("Lines", &["grid", "stripes", "gridtexture", "tiles", "stripe"]),
         ("Dots", &["polkadots", "spots", "polka", "dot"]),
         ("Gradient", &["ramp", "blend", "gradienttexture"]),
@@ -256,8 +256,14 @@ pub(super) type Hints = &'static [(&'static [&'static str], &'static str)];
 const TEXTURES: Hints = &[
     (
         &["bricks", "brick", "bricktexture"],
-        "there is no such pattern: make a picture of it, and name its file: Texture(file: \"bricks.png\")",
+        "bricks are Lines over a colour: Lines(a: \"#b5b0a8\", b: \"#8a3d2e\", width: 0.08, mapping: Uv(scale: (4, \
+         12))); with rows that are shifted they are a picture, Texture(file: \"bricks.png\")",
     ),
+    (
+        &["perlin", "perlinnoise", "simplex", "gradientnoise"],
+        "noise of one octave is a kind of Noise: write Noise(kind: Perlin)",
+    ),
+    (&["turbulence"], "it is a kind of Noise: write Noise(kind: Turbulence)"),
     (
         &["wave", "wavetexture", "magic"],
         "waves that noise bends are Marble(..) in planes and Wood(..) in rings; even stripes are Lines(width: 0.5, \

@@ -171,7 +171,13 @@ impl Reader<'_> {
                 // A description that serde gives.
                 Span::NONE => fault(format!("cannot include {shown}: no file is looked at here"), codes::INCLUDE)
                     .expected("a scene that stands alone; `load` reads one with what it includes"),
-                _ => fault(format!("more than {MOST_FILES} files are included"), codes::TOO_MUCH).expected("fewer"),
+                _ if name.included_files() >= MOST_FILES => {
+                    fault(format!("more than {MOST_FILES} files are included"), codes::TOO_MUCH).expected("fewer")
+                }
+                // Where the word before it is wrong, that is told.
+                _ if self.sink.errors > 0 => return None,
+                _ => fault(format!("cannot include {shown}: it is not known before the scene is read"), codes::INCLUDE)
+                    .expected("the name as it is, in `include` or as the `file` of an `Include`"),
             };
             // All that are too many are so by one fault.
             let known = |other: &Diagnostic| other.code == codes::TOO_MUCH && other.message == fault.message;
@@ -254,6 +260,7 @@ impl Reader<'_> {
     pub(crate) fn include(&mut self, item: Item<'_, '_>, words: IncludeWords) -> Option<Vec<Spanned<Object>>> {
         let body = if item.kind() == Kind::Map { item.fields().next()?.1 } else { item };
         let (_, name) = body.fields().find(|(key, _)| key.text() == "file")?;
+        let name = self.picked(name)?;
         let (file, root) = self.open(name, &name.text())?;
         // Its own names.
         let materials = std::mem::take(&mut self.materials);

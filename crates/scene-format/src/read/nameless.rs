@@ -42,6 +42,12 @@ impl Reader<'_> {
                 "four numbers are a row, and there are three: `rows: ((1, 0, 0, x), (0, 1, 0, y), (0, 0, 1, z))`"
                     .to_owned();
             fault.edit = Some(Edit { span: first.span(), replacement: rows });
+        } else if def.name == "Scale" && values.len() == 2 && values.iter().all(|value| value.number().is_some()) {
+            let [x, y] = [first, last].map(|value| value.lexeme());
+            fault.hint = match item.syntax() {
+                Syntax::Ron => format!("three factors stand in brackets: `Scale(({x}, {y}, 1))`"),
+                _ => format!("three factors stand in brackets: `[{x}, {y}, 1]`"),
+            };
         } else if let Some(mended) = named(&values, def).filter(|_| def.name != "Pick") {
             // With its kind, where that is on the same line.
             let kind = item.name().filter(|name| *name == def.name && values.len() == 1);
@@ -49,7 +55,12 @@ impl Reader<'_> {
                 Some(kind) => format!("write `{}`", hinted(&format!("{kind}({mended})"))),
                 None => format!("write `{}`", hinted(&mended)),
             };
-            fault.edit = Some(Edit { span: whole, replacement: mended });
+            // Which of them is meant nobody knows.
+            if def.name == "FitTo" {
+                fault.hint += ", or `width`, `depth` or `size` as it is meant";
+            } else {
+                fault.edit = Some(Edit { span: whole, replacement: mended });
+            }
         } else if def.name == "Pick" && values.len() == 1 {
             let index = match self.indices.last() {
                 Some((index, _)) => format!("\"={index}\""),

@@ -7,10 +7,10 @@ use crate::desc::{Material, Object, PatternWords, is_texture};
 use crate::schema::EnumDef;
 
 /// What is said of writing, which may be meant over the picture or in the scene.
-pub(super) const LETTERS: &str = "letters over the picture are written by another program: `output: Output(marks: { \
-                                  \"A\": (0, 1, 0) })` tells in the report where each point is seen; letters in the \
-                                  scene are a Mesh of another program, an Extrude of their outlines, or a picture of \
-                                  them, Texture(file: \"a.png\") on a Rectangle";
+pub(super) const LETTERS: &str = "letters over the picture are laid on afterwards: `tracer marks` makes labels of an \
+                                  .svg, or coordinates for TikZ (.tex), of `output: Output(marks: { \"A\": (0, 1, \
+                                  0) })`; letters in the scene are a Mesh of another program, an Extrude of their \
+                                  outlines, or a picture of them, Texture(file: \"a.png\") on a Rectangle";
 
 /// Objects of other programs.
 pub(super) const OBJECTS: Hints = &[
@@ -105,8 +105,8 @@ pub(super) const OBJECTS: Hints = &[
     (
         &["dimension", "dimensionline", "measure", "measurement", "scalebar", "ruler"],
         "a dimension line is two Arrows that meet in its middle: Arrow(from: (0.5, 0, 0), to: (0, 0, 0), radius: \
-         0.01), Arrow(from: (0.5, 0, 0), to: (1, 0, 0), radius: 0.01); its number is written over the picture, where \
-         `output: Output(marks: { \"L\": (0.5, 0, 0) })` tells",
+         0.01), Arrow(from: (0.5, 0, 0), to: (1, 0, 0), radius: 0.01); its number is laid over the picture, where \
+         `output: Output(marks: { \"L\": (0.5, 0, 0) })` and `tracer marks` tell",
     ),
     (
         &["cloth", "fabric", "drape", "curtain", "flag", "softbody"],

@@ -18,7 +18,7 @@ pub(crate) static PICK: StructDef = StructDef {
         FieldDef {
             name: "from",
             noun: "the from of a pick",
-            doc: &[" The values: anything that may stand where the pick does."],
+            doc: &[" The values, a thousand at most: anything that may stand where the pick does."],
             kind: Type::List(&Type::Value),
             rule: Rule::ANY,
             default: None,

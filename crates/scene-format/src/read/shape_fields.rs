@@ -137,6 +137,7 @@ pub(super) fn of_shape(name: &str, def: &'static StructDef, syntax: Syntax) -> O
         ("inner_radius" | "thickness" | "wall" | "wall_thickness" | "inner" | "hole", "Cylinder") => {
             "a pipe with a wall is a `Difference` of two cylinders, or a `Lathe` whose profile is the wall's section"
         }
+        ("thickness", "Torus") => "how thick its ring is says the `tube_radius`, which is half of that",
         ("twist" | "taper" | "scale_top", "Extrude") => {
             "the outline is the same all along: a `Mesh` takes other shapes"
         }

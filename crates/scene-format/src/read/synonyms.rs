@@ -204,18 +204,7 @@ const OF_TORUS: &[(&str, &[&str])] = &[
     ("radius", &["R", "r1", "radius1", "major", "major_radius", "ring_radius", "radius_major", "main_radius"]),
     (
         "tube_radius",
-        &[
-            "r",
-            "r2",
-            "radius2",
-            "minor",
-            "minor_radius",
-            "tube",
-            "radius_minor",
-            "section_radius",
-            "thickness_radius",
-            "thickness",
-        ],
+        &["r", "r2", "radius2", "minor", "minor_radius", "tube", "radius_minor", "section_radius", "thickness_radius"],
     ),
 ];
 

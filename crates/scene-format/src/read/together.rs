@@ -5,6 +5,7 @@ use super::elsewhere::{Fields, numbers, whole_field};
 use super::figures;
 use super::transforms_elsewhere::{as_radians, placed};
 use super::unknown::Unknown;
+use super::vars::is_expression;
 use crate::diagnostic::{Edit, Span};
 use crate::syntax::{Syntax, decode};
 use crate::tree::Item;
@@ -138,7 +139,8 @@ fn by_axes(unknown: &Unknown<'_, '_, '_>) -> Option<Together> {
         return Some(Together { hint: None, edit: None, fields });
     }
     let syntax = item.syntax();
-    let said = |axis: &str| find(axis).map(|(_, value)| value).filter(|value| value.number().is_some());
+    let is_number = |value: &Item<'_, '_>| value.number().is_some() || is_expression(*value);
+    let said = |axis: &str| find(axis).map(|(_, value)| value).filter(is_number);
     let write = |field: &str, value: &str| format!("{}{value}", Fields(syntax).name(field));
     let unit = |axis: &str| {
         let numbers: Vec<String> = AXES.iter().map(|other| u8::from(*other == axis).to_string()).collect();
@@ -214,7 +216,9 @@ fn of_row(unknown: &Unknown<'_, '_, '_>, (kind, theirs, ours, [ron, toml], turne
             .to_owned(),
         None => format!("write `{way}`"),
     };
-    let edit = mended.and_then(|mended| in_place_of(&found, *item, mended));
+    // Which way a box is long nobody knows.
+    let is_guess = *kind == "Box" && found.iter().any(|(key, _)| key.text() == "length");
+    let edit = mended.filter(|_| !is_guess).and_then(|mended| in_place_of(&found, *item, mended));
     Some(Together { hint: Some(hint), edit, fields })
 }
 

@@ -57,22 +57,27 @@ impl Reader<'_> {
 
     /// One square of a checkerboard covers all of each thing that has it.
     fn single_squares(&mut self, root: Item<'_, '_>, scene: &Scene) {
-        let named: BTreeMap<&str, bool> =
-            scene.materials.iter().map(|named| (&*named.name.value, has_single_square(&named.material))).collect();
+        let named: BTreeMap<&str, Option<Square>> =
+            scene.materials.iter().map(|named| (&*named.name.value, single_square(&named.material))).collect();
         // Where a thing shows more of it than a square, it is meant so; and each is told once.
-        let mut of_names: BTreeMap<&str, Option<(Span, &'static str)>> = BTreeMap::new();
-        let mut found: Vec<(Span, &'static str)> = Vec::new();
+        let mut of_names: BTreeMap<&str, Option<(Span, &'static str, Square)>> = BTreeMap::new();
+        let mut found: Vec<(Span, &'static str, Square)> = Vec::new();
         for object in with_operands(&scene.objects.0) {
-            let told = has_corner_to_corner(&object.value).then(|| (object.span, object.value.kind()));
+            let told = |square: Square| {
+                has_corner_to_corner(&object.value).then(|| (object.span, object.value.kind(), square))
+            };
             match object.value.material() {
-                MaterialRef::Named { name, .. } if named.get(&**name).copied().unwrap_or_default() => {
-                    of_names.entry(name).and_modify(|known| *known = known.and(told).and(*known)).or_insert(told);
+                MaterialRef::Named { name, .. } => {
+                    if let Some(square) = named.get(&**name).copied().flatten() {
+                        let told = told(square);
+                        of_names.entry(name).and_modify(|known| *known = known.and(told).and(*known)).or_insert(told);
+                    }
                 }
                 MaterialRef::Inline(material) => {
-                    let told = told.filter(|told| has_single_square(&material.value) && found.last() != Some(told));
-                    found.extend(told);
+                    let told = single_square(&material.value).and_then(told);
+                    found.extend(told.filter(|told| found.last() != Some(told)));
                 }
-                MaterialRef::Named { .. } | MaterialRef::Default => {}
+                MaterialRef::Default => {}
             }
         }
         found.extend(of_names.into_values().flatten());
@@ -82,8 +87,9 @@ impl Reader<'_> {
             Syntax::Ron => "mapping: Uv(scale: 8)".into(),
             syntax => syntax.of_toml("mapping = { Uv = { scale = 8 } }"),
         };
-        for (span, kind) in found.into_iter().take(MOST) {
-            let message = format!("one square of the checkerboard covers all of this `{kind}`: only its `a` is seen");
+        for (span, kind, square) in found.into_iter().take(MOST) {
+            let message =
+                format!("one square of the checkerboard covers all of this `{kind}`: only its `{square}` is seen");
             let hint = format!("write `{mapping}` in the Checkerboard, for eight squares along each side");
             self.report(
                 Diagnostic::warning(codes::SINGLE_SQUARE, span, message).expected("several squares").hint(hint),
@@ -117,20 +123,24 @@ fn has_corner_to_corner(object: &Object) -> bool {
     )
 }
 
-/// Whether a material is a checkerboard of which coordinates from 0 to 1 meet one square.
-fn has_single_square(material: &Material) -> bool {
-    material.varying().into_iter().any(|of| match of.resolved() {
-        Albedo::Checkerboard(checkerboard) => is_single(checkerboard),
-        _ => false,
+/// The name of the colour that a square of a checkerboard has.
+type Square = char;
+
+/// Of a checkerboard of which coordinates from 0 to 1 meet one square, whose that is.
+fn single_square(material: &Material) -> Option<Square> {
+    material.varying().into_iter().find_map(|of| match of.resolved() {
+        Albedo::Checkerboard(checkerboard) => square_of(checkerboard),
+        _ => None,
     })
 }
 
-fn is_single(checkerboard: &Checkerboard) -> bool {
-    let SolidMapping::Uv(uv) = &checkerboard.mapping else { return false };
+fn square_of(checkerboard: &Checkerboard) -> Option<Square> {
+    let SolidMapping::Uv(uv) = &checkerboard.mapping else { return None };
     // Nothing is lost where both are the same.
     if checkerboard.a == checkerboard.b {
-        return false;
+        return None;
     }
     let is_whole = uv.offset.iter().all(|by| by.fract() == 0.0);
-    is_whole && uv.rotation == 0.0 && uv.scale.0.iter().all(|scale| (0.0..=1.0).contains(scale))
+    let is_single = is_whole && uv.rotation == 0.0 && uv.scale.0.iter().all(|scale| (0.0..=1.0).contains(scale));
+    is_single.then(|| if (uv.offset[0] + uv.offset[1]) % 2.0 == 0.0 { 'a' } else { 'b' })
 }

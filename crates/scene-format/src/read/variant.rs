@@ -281,7 +281,8 @@ impl Reader<'_> {
             self.report(fault.hint(format!("the nearest here is {needs}{more}")));
             return None;
         }
-        let near = elsewhere.or_else(|| suggest::nearest(name, names));
+        let near =
+            elsewhere.or_else(|| suggest::nearest(name, names).filter(|near| suggest::has_same_number(name, near)));
         // A word alone for a kind that needs its fields.
         if let (None, Some(variant)) = (inner, near.and_then(|word| def.variant(word)))
             && let (Content::Struct(_), Some(written)) = (&variant.content, alone(variant, syntax))

@@ -282,7 +282,9 @@ impl Film {
         film.light_samples = of.first + light;
         film.whole = if is_whole { of.end } else { *film.samples().start() };
         film.has_gaps = !is_whole;
-        film.part = (allowed == Gaps::Around).then_some(of);
+        // All of the rendering is no part any more: more samples can be added.
+        let is_all = of.crop == of.of_crop && (of.first..of.end) == (0..of.of_samples);
+        film.part = (allowed == Gaps::Around && !is_all).then_some(of);
         Ok(film)
     }
 

@@ -50,6 +50,7 @@ mod shining_curved;
 mod shining_solids;
 mod sky;
 mod solids;
+mod suns;
 mod support;
 mod surfaces;
 mod textures;

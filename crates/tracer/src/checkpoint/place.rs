@@ -1,10 +1,10 @@
 //! Where a checkpoint lies: its file, the one before, the one that is being written, and the lock.
 
-use super::Flushing;
+use super::{Flushing, is_film};
 use crate::failure::Failure;
 use crate::write::{WriteError, forget_unfinished, probe, real_place, remember_unfinished};
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// What is added to a checkpoint's name for the files beside it: the one before, the one that is being written, and the
@@ -34,6 +34,25 @@ impl Place {
             return Err(Failure::wrong(format!("{} is no file; a checkpoint needs one", path.display())));
         }
         Ok(Place { named: path.to_owned(), real })
+    }
+
+    /// Sees that none of the files that lie beside it is somebody else's: they are replaced and deleted.
+    ///
+    /// # Errors
+    /// That one is.
+    pub fn spare_beside(&self) -> Result<(), Failure> {
+        for suffix in BESIDE {
+            let path = self.with(suffix);
+            let is_empty = path.metadata().map_or(true, |found| found.len() == 0);
+            if path.is_dir() || !(is_empty || suffix != LOCK && (is_film(&path) || is_blank(&path))) {
+                let shown = format!("{}{suffix}", self.name());
+                return Err(Failure::wrong(format!(
+                    "{shown} is no file of tracer's, and would be replaced beside {}; name another file",
+                    self.name()
+                )));
+            }
+        }
+        Ok(())
     }
 
     /// The same without looking whether a file can be written now.
@@ -140,16 +159,30 @@ impl Place {
     /// # Errors
     /// When one does.
     pub fn lock(&self) -> Result<Lock, Failure> {
+        self.locked(self.try_lock())
+    }
+
+    /// The same for who only reads: where nobody may write, nobody has to be kept off.
+    ///
+    /// # Errors
+    /// As [`Place::lock`].
+    pub fn lock_to_read(&self) -> Result<Option<Lock>, Failure> {
         match self.try_lock() {
+            Err(why) if matches!(why.kind(), io::ErrorKind::ReadOnlyFilesystem | io::ErrorKind::PermissionDenied) => {
+                Ok(None)
+            }
+            tried => self.locked(tried).map(Some),
+        }
+    }
+
+    fn locked(&self, tried: io::Result<Option<Lock>>) -> Result<Lock, Failure> {
+        let name = self.name();
+        match tried {
             Ok(Some(lock)) => Ok(lock),
-            Ok(None) => Err(Failure::could_not(format!(
-                "another process writes the checkpoint {}; wait for it, or name another file",
-                self.name()
-            ))),
-            Err(error) => Err(Failure::could_not(format!(
-                "cannot lock the checkpoint {}: {error}; name another place",
-                self.name()
-            ))),
+            Ok(None) => {
+                Err(Failure::could_not(format!("another process writes {name}; wait for it, or name another file")))
+            }
+            Err(error) => Err(Failure::could_not(format!("cannot lock {name}: {error}; name another place"))),
         }
     }
 
@@ -186,6 +219,13 @@ impl Place {
             }
         }
     }
+}
+
+/// Whether a file begins with zeros, as one does that was not yet on the disk when the power went.
+fn is_blank(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(16).read_to_end(&mut head));
+    read.is_ok() && head.iter().all(|&byte| byte == 0)
 }
 
 /// A lock that ends with the process, however that ends.

@@ -17,6 +17,7 @@ mod info;
 mod inspect;
 mod lsp;
 mod man;
+mod marks;
 pub(crate) mod merge;
 mod new;
 mod preview;
@@ -47,6 +48,7 @@ pub fn run(command: &Command, shell: &Shell, started: Instant) -> Result<ExitCod
         Command::Check(args) => check::run(args, shell),
         Command::Info(args) => info::run(args, shell),
         Command::Inspect(args) => inspect::run(args, shell),
+        Command::Marks(args) => marks::run(args, shell),
         Command::Convert(args) => convert::run(args, shell),
         Command::Fmt(args) => fmt::run(args, shell),
         Command::New(args) => new::run(args, shell),

@@ -183,7 +183,7 @@ fn one_process_at_a_time() {
     for option in ["--checkpoint", "--resume"] {
         let ran = sandbox.run(&render("b.png", "4", &[option, "./c.film"]));
         let ran = ran.ends(1);
-        ran.says(&["another process writes the checkpoint ./c.film", "wait for it, or name another file"]);
+        ran.says(&["another process writes ./c.film", "wait for it, or name another file"]);
     }
     child.kill().expect("a child");
     child.wait().expect("it ends");
@@ -276,6 +276,54 @@ fn a_damaged_file_falls_back_to_the_one_before() {
     ran.says(&["there is none before it", "name another file to begin anew"]);
 }
 
+/// What lies beside a checkpoint is replaced or deleted: only if it is tracer's.
+#[test]
+fn somebody_elses_files_beside_a_checkpoint_stay() {
+    for beside in ["c.film.previous", "c.film.writing", "c.film.lock"] {
+        let sandbox = Sandbox::new();
+        sandbox.write(beside, "my notes, longer than a head of a film");
+        for option in ["--checkpoint", "--resume"] {
+            let ran = sandbox.run(&render("a.png", "2", &[option, "c.film"])).ends(2);
+            ran.says(&[&format!("{beside} is no file of tracer's"), "name another file"]);
+        }
+        assert_eq!(sandbox.text(beside), "my notes, longer than a head of a film");
+        assert!(!sandbox.path("c.film").exists());
+    }
+    // What a power cut has left is.
+    let sandbox = Sandbox::new();
+    sandbox.write("c.film.writing", [0; 4096]);
+    sandbox.run(&render("a.png", "2", &["--checkpoint", "c.film"])).ends(0);
+}
+
+/// A checkpoint where nobody may write can be gone on with, if another place is named to write to.
+#[cfg(unix)]
+#[test]
+fn a_checkpoint_that_is_only_read() {
+    let sandbox = Sandbox::new();
+    sandbox.run(&render("b.pfm", "6", &[])).ends(0);
+    fs::create_dir(sandbox.path("there")).expect("a folder");
+    sandbox.run(&render("a.pfm", "3", &["--checkpoint", "there/c.film"])).ends(0);
+    // No file can be made in what is none, not even by root.
+    fs::rename(sandbox.path("there/c.film"), sandbox.path("d.film")).expect("a file");
+    sandbox.run(&render("a.pfm", "6", &["--resume", "d.film", "--checkpoint", "e.film"])).ends(0);
+    assert_eq!(sandbox.read("a.pfm"), sandbox.read("b.pfm"));
+    assert_eq!(info(&sandbox, "d.film")["samples_min"], 3);
+}
+
+/// A file that would be larger than the system allows is as a full disk: the rendering goes on.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_limit_of_file_sizes_ends_nothing() {
+    let sandbox = Sandbox::new();
+    // 8 blocks of 512 or 1024 bytes, as the shell counts them; the film has more, and the picture has less.
+    let line = "ulimit -f 8; exec \"$0\" render scene.ron -o a.png --samples 2 --checkpoint c.film";
+    let mut command = std::process::Command::new("sh");
+    command.args(["-c", line, env!("CARGO_BIN_EXE_tracer")]).current_dir(sandbox.path("."));
+    let ran = Ran::of(&mut command).ends(1);
+    ran.says(&["cannot write the checkpoint c.film", "ulimit -f"]);
+    assert!(sandbox.path("a.png").exists() && !sandbox.path("c.film.writing").exists());
+}
+
 #[test]
 fn info_tells_what_a_checkpoint_holds() {
     let sandbox = Sandbox::new();
@@ -300,7 +348,7 @@ fn info_tells_what_a_checkpoint_holds() {
     let last = bytes.len() - 1;
     bytes[last] ^= 1;
     sandbox.write("c.film", bytes);
-    sandbox.run(&["info", "c.film"]).ends(1).says(&["c.film cannot be used", "checksum", "c.film.previous"]);
+    sandbox.run(&["info", "c.film"]).ends(1).says(&["c.film cannot be used", "checksum"]);
     sandbox.run(&["info", "c.film", "--resolved"]).ends(2).says(&["is a checkpoint"]);
 }
 

@@ -3,7 +3,7 @@
 use crate::support::{Ran, SCENE, Sandbox, repository};
 use serde_json::Value;
 
-pub const COMMANDS: [&str; 20] = [
+pub const COMMANDS: [&str; 21] = [
     "render",
     "preview",
     "merge",
@@ -11,6 +11,7 @@ pub const COMMANDS: [&str; 20] = [
     "check",
     "info",
     "inspect",
+    "marks",
     "convert",
     "fmt",
     "new",

@@ -19,6 +19,7 @@ fn printing() -> Vec<Vec<&'static str>> {
         vec!["info", "scene.ron", "--resolved"],
         vec!["inspect", "scene.ron", "--pixel", "20,12"],
         vec!["inspect", "scene.ron", "--pixel", "20,12", "--format", "json"],
+        vec!["marks", "scene.ron", "--set", "output.marks={\"A\": (0, 0, 0)}"],
         vec!["convert", "scene.ron"],
         vec!["fmt", "scene.ron", "--check"],
         vec!["new", "-"],

@@ -24,6 +24,7 @@ mod interrupt;
 mod kubernetes;
 mod layers;
 mod light_groups;
+mod marks;
 mod mattes;
 mod mistaken;
 mod motion;

@@ -51,6 +51,7 @@ fn a_kind_replaces_its_own_alone() {
         ("report", "render scene.ron --size 4x4 --samples 1 -o a.png --report", "r.json"),
         ("picture", "render scene.ron --size 4x4 --samples 1 -o", "p.png"),
         ("drawing", "inspect scene.ron --pixel 0,0 --svg", "d.svg"),
+        ("file of tracer marks", "marks scene.ron --set output.marks={\"A\":(0,0,0)} -o", "m.tex"),
         ("JUnit report", "golden run golden --junit", "j.xml"),
         ("page", "golden run golden --html", "h.html"),
     ];

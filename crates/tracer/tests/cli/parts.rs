@@ -19,6 +19,31 @@ fn json(sandbox: &Sandbox, name: &str) -> Value {
     serde_json::from_str(&sandbox.text(name)).expect("JSON")
 }
 
+/// All parts together are the rendering, which can have more samples then; a part replaces no other one.
+#[test]
+fn what_is_merged_whole_can_be_extended() {
+    for split in ["samples", "rows"] {
+        let sandbox = Sandbox::new();
+        let size = ["--size", "40x40", "--samples"];
+        parts(&sandbox, 3, &[&size[..], &["4", "--split", split]].concat());
+        let parts = ["scene.1of3.tracer", "scene.2of3.tracer", "scene.3of3.tracer"];
+        sandbox.run(&[&["merge"], &parts[..], &["-o", "w.tracer"]].concat()).ends(0).says(&["w.tracer of 3 parts"]);
+        render(&sandbox, &[&size[..], &["4", "-o", "four.pfm"]].concat());
+        sandbox.run(&["merge", "w.tracer", "-o", "merged.pfm"]).ends(0);
+        assert_eq!(sandbox.read("merged.pfm"), sandbox.read("four.pfm"), "{split}");
+        render(&sandbox, &[&size[..], &["9", "-o", "nine.pfm"]].concat());
+        render(&sandbox, &[&size[..], &["9", "-o", "more.pfm", "--resume", "w.tracer"]].concat());
+        assert_eq!(sandbox.read("more.pfm"), sandbox.read("nine.pfm"), "{split}");
+        // By a slip of the name.
+        let before = sandbox.read(parts[0]);
+        let slip = [&["render", "scene.ron", "-q", "--split", split], &size[..], &["4", "-o", parts[0]]].concat();
+        let ran = sandbox.run(&[&slip[..], &["--part", "2/3"]].concat()).ends(2);
+        ran.says(&["would replace another part of this rendering", "which is finished"]);
+        assert_eq!(sandbox.read(parts[0]), before);
+        sandbox.run(&[&slip[..], &["--part", "1/3"]].concat()).ends(0);
+    }
+}
+
 #[test]
 fn merged_pictures_are_those_of_one_machine() {
     let kinds: [&[&str]; 4] = [

@@ -17,6 +17,42 @@ const PLAN: &str = "crates/kernels/src/engine/guide/plan.rs";
 
 /// The faults.
 pub const MUTANTS: &[Mutant] = &[
+    // Light paths from the bright parts of pictures.
+    Mutant {
+        name: "suns-send-no-light-paths",
+        file: PLAN,
+        find: "self.strays.push(center != caster.center || is_astray(before, caster));",
+        replace: "self.strays.push(center != caster.center || !is_astray(before, caster));",
+        caught_by: proofs(&["suns"]),
+    },
+    Mutant {
+        name: "suns-over-glass-in-full-beside-light-paths",
+        file: EMISSION,
+        find: "let weight = self.beside_light_paths(ray, paths, lanes, &sky, weight);",
+        replace: "",
+        caught_by: proofs(&["suns"]),
+    },
+    Mutant {
+        name: "light-paths-of-suns-weigh-by-light-samples",
+        file: EMISSION,
+        find: "(sky.pdf, sky.radiance), from",
+        replace: "(sky.sampled, sky.radiance), from",
+        caught_by: proofs(&["suns"]),
+    },
+    Mutant {
+        name: "all-of-the-sky-has-light-paths",
+        file: LIGHT_PATHS,
+        find: "let mask = mask & bright.has(radiance);",
+        replace: "",
+        caught_by: proofs(&["suns"]),
+    },
+    Mutant {
+        name: "suns-shine-through-planes",
+        file: PHOTONS,
+        find: " & !behind_planes(scene, point, from.wi)",
+        replace: "",
+        caught_by: proofs(&["suns"]),
+    },
     Mutant {
         name: "both-ways-at-glass-with-all-the-light",
         file: SCATTER,

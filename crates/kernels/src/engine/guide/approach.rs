@@ -48,6 +48,13 @@ pub enum Start {
     Stray,
 }
 
+/// Whether rays that begin so far before a caster go by so much beside what they were aimed at that paths must not
+/// count on them.
+pub(super) fn is_astray(before: f64, caster: &Caster) -> bool {
+    let reach = if caster.radius < LARGE { REACH } else { REACH_OF_LARGE };
+    before.partial_cmp(&(reach.near * caster.radius)) != Some(Ordering::Less)
+}
+
 /// What may stand between lights and casters, gathered when first asked about. What is missed here would not stand in
 /// the way of light paths, which bring light.
 pub struct Ways<'a> {

@@ -6,6 +6,8 @@
 
 use super::approach::balls;
 use super::casters::Caster;
+use crate::lanes::Lanes;
+use crate::math::V3;
 use crate::scene::{Environment, Scene};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -35,6 +37,12 @@ impl Bright {
             .filter(|x| x.is_finite())
             .fold(0.0, f64::max);
         Some(Bright { least: least as f32, fluence, reach })
+    }
+
+    /// Whether this radiance is of these parts.
+    #[inline(always)]
+    pub fn has<F: Lanes>(&self, V3(red, green, blue): V3<F>) -> F::M {
+        F::splat(self.least).lt(red + green + blue)
     }
 
     /// Middle and radius of what photons are sent at: of a plane, what the scene has beside it.

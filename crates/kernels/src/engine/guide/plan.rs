@@ -1,6 +1,6 @@
 //! Which photons are sent from which light at which caster.
 
-use super::approach::{Start, Ways};
+use super::approach::{Start, Ways, is_astray};
 use super::bright::Bright;
 use super::casters::{Caster, Casters};
 use crate::lanes::{Bits, Lanes};
@@ -68,7 +68,8 @@ pub struct PairTable {
     pub flux: [Vec<f32>; 3],
     /// Radiance of the light.
     pub radiance: [Vec<f32>; 3],
-    /// Area of the light that photons start from, times the measure of directions of [`aim::EVERYWHERE`].
+    /// Area of the light that photons start from, times the measure of directions of [`aim::EVERYWHERE`]; of the sky
+    /// that of the disc before the caster.
     pub area: Vec<f32>,
     /// A number of its own, for its photons' random choices.
     pub key: Vec<u32>,
@@ -313,12 +314,14 @@ impl PairTable {
         table
     }
 
-    /// The bright part of the sky, from where photons come to a disc before the caster. No light paths are made of
-    /// them: paths do not reckon with these.
+    /// The bright part of the sky, from where photons come to a disc before the caster.
     fn push_sky(&mut self, bright: &Bright, caster: &Caster, probability: f64, any_flat: bool) {
         let target = bright.target(caster);
         let (center, radius) = target;
-        let area = std::f64::consts::PI * radius * radius;
+        // A little more, so that none of the caster's rim lies beside the disc.
+        let radius2 = radius * radius * 1.000_01;
+        let area = std::f64::consts::PI * radius2;
+        let before = bright.before(target);
         for axis in 0..3 {
             self.caster_center[axis].push(center[axis] as f32);
             self.flux[axis].push((area / probability) as f32);
@@ -331,9 +334,10 @@ impl PairTable {
                     .for_each(|c| c.push(0.0));
             }
         }
-        self.caster_radius2.push((radius * radius) as f32);
-        self.approach.push(bright.before(target) as f32);
-        self.strays.push(true);
+        self.caster_radius2.push(radius2 as f32);
+        self.approach.push(before as f32);
+        // Light paths are made where the disc is before all of the caster.
+        self.strays.push(center != caster.center || is_astray(before, caster));
         self.area.push(area as f32);
         self.light.push(0);
         self.light_radius.push(0.0);

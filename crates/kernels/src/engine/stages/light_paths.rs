@@ -16,6 +16,10 @@
 //!   differs from the geometric one g, each reflection has the factor |l.g| / |e.g| and each refraction |l.g| |e.s| /
 //!   (|e.g| |l.s|), l and e being the directions on the sides of light and eye.
 //!
+//! Of the bright parts of a picture of all directions (see [`crate::engine::guide`]) rho / cos_q is their number times
+//! the picture's density over the area of the disc before the caster that they come through: per area across the
+//! direction and solid angle, which is the same measure.
+//!
 //! With the integrand h_j F, F = f cos L (and colours and the radiance scaling of glass), a light path adds h_j F /
 //! (h_j P + D) to pixel j, and a path that has met the light counts by h_j P / (h_j P + D).
 //!
@@ -141,18 +145,7 @@ pub fn density_ratio<F: Lanes>(
     let c = F::splat;
     let (zero, one) = (c(0.0), c(1.0));
     let nothing = F::U::splat(0);
-    let on_sphere = mask & instance.eq(F::U::splat(NONE));
-    let on_instance = mask & !on_sphere;
-    let known = on_instance | (on_sphere & primitive.lt(F::U::splat(plan.casters.of_sphere.len() as u32)));
-    let of_sphere = F::U::gather(&plan.casters.of_sphere, F::U::select(on_sphere & known, primitive, nothing));
-    let of_instance = F::U::gather(&plan.casters.of_instance, F::U::select(on_instance, instance, nothing));
-    let caster = F::U::select(on_instance, of_instance, of_sphere);
-    let known = known & !caster.eq(F::U::splat(NONE));
-    let casters = F::U::splat(plan.casters.list.len() as u32);
-    let place = F::U::select(known, light * casters + caster, nothing);
-    let pair = F::U::gather(&light_paths.pair_of, place);
-    let known = known & !pair.eq(F::U::splat(NONE));
-    let pair = F::U::select(known, pair, nothing);
+    let (pair, known) = pair_of::<F>(light_paths, plan, light, [primitive, instance], mask);
     let pairs = &plan.pairs;
     let everywhere = F::U::gather(&pairs.aim, pair).eq(F::U::splat(way::EVERYWHERE));
     let center = V3::<F>::gather_columns(&pairs.light_center, pair);
@@ -175,6 +168,50 @@ pub fn density_ratio<F: Lanes>(
     let known = known & zero.lt(density);
     let per_path = F::gather(&light_paths.density, pair) / F::select(known, density, one);
     F::select(known, per_path * ratio, zero)
+}
+
+/// [`density_ratio`] of paths that have left the scene: `density` and `radiance` are the sky's where they go.
+#[inline(always)]
+pub fn density_ratio_of_sky<F: Lanes>(
+    light_paths: &LightPaths,
+    plan: &Plan,
+    (density, radiance): (F, V3<F>),
+    from: [F::U; 2],
+    ratio: F,
+    mask: F::M,
+) -> F {
+    let Some(bright) = &plan.bright else { return F::splat(0.0) };
+    // The numbered lights are before it.
+    let numbered = light_paths.pair_of.len() / plan.casters.list.len() - 1;
+    let mask = mask & bright.has(radiance);
+    let (pair, known) = pair_of::<F>(light_paths, plan, F::U::splat(numbered as u32), from, mask);
+    let per_path = F::gather(&light_paths.density, pair) * density;
+    F::select(known, per_path * ratio, F::splat(0.0))
+}
+
+/// The pair of these lanes' lights and the casters that rays have left at a primitive of an instance, and which lanes
+/// have one.
+#[inline(always)]
+fn pair_of<F: Lanes>(
+    light_paths: &LightPaths,
+    plan: &Plan,
+    light: F::U,
+    [primitive, instance]: [F::U; 2],
+    mask: F::M,
+) -> (F::U, F::M) {
+    let nothing = F::U::splat(0);
+    let on_sphere = mask & instance.eq(F::U::splat(NONE));
+    let on_instance = mask & !on_sphere;
+    let known = on_instance | (on_sphere & primitive.lt(F::U::splat(plan.casters.of_sphere.len() as u32)));
+    let of_sphere = F::U::gather(&plan.casters.of_sphere, F::U::select(on_sphere & known, primitive, nothing));
+    let of_instance = F::U::gather(&plan.casters.of_instance, F::U::select(on_instance, instance, nothing));
+    let caster = F::U::select(on_instance, of_instance, of_sphere);
+    let known = known & !caster.eq(F::U::splat(NONE));
+    let casters = F::U::splat(plan.casters.list.len() as u32);
+    let place = F::U::select(known, light * casters + caster, nothing);
+    let pair = F::U::gather(&light_paths.pair_of, place);
+    let known = known & !pair.eq(F::U::splat(NONE));
+    (F::U::select(known, pair, nothing), known)
 }
 
 /// 1 - cos of half the angle of the cone from a point of a pair's light around its caster.

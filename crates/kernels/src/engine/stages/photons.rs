@@ -137,6 +137,8 @@ pub fn photons_emit<F: Lanes>(scene: &Scene, plan: &Plan, pass: PhotonPass<'_>, 
             point = V3::select(from_sky, start.point, point);
             direction = V3::select(from_sky, start.direction, direction);
             flux = V3::select(from_sky, start.flux, flux);
+            radiance = V3::select(from_sky, start.radiance, radiance);
+            density = F::select(from_sky, start.inverse_pdf, density);
             passed = F::select(from_sky, c(FARTHEST), passed);
             leaves = F::U::select(from_sky, F::U::splat(NONE), leaves);
             sent = (sent & !from_sky) | (from_sky & start.bright);
@@ -165,7 +167,10 @@ struct SkyStart<F: Lanes> {
     point: V3<F>,
     direction: V3<F>,
     flux: V3<F>,
-    /// Lanes whose direction is of these parts.
+    radiance: V3<F>,
+    /// One over the density of the direction.
+    inverse_pdf: F,
+    /// Lanes whose direction is of these parts, and that nothing keeps from there.
     bright: F::M,
 }
 
@@ -176,7 +181,9 @@ impl<F: Lanes> SkyStart<F> {
         let zero = F::splat(0.0);
         let none = F::M::from_bits(0);
         let (Some(sky), Some(bright)) = (scene.environment(), &plan.bright) else {
-            return SkyStart { point: V3::zero(), direction: V3::zero(), flux: V3::zero(), bright: none };
+            let nothing = V3::zero();
+            let (point, direction, flux, radiance) = (nothing, nothing, nothing, nothing);
+            return SkyStart { point, direction, flux, radiance, inverse_pdf: zero, bright: none };
         };
         let pairs = &plan.pairs;
         let (u, v) = numbers.pair(salts[0]);
@@ -186,14 +193,27 @@ impl<F: Lanes> SkyStart<F> {
         let radius = F::gather(&pairs.caster_radius2, pair).sqrt();
         let center = V3::<F>::gather_columns(&pairs.caster_center, pair);
         let aside = from.wi.to_world(V3(x * radius, y * radius, zero));
-        let V3(red, green, blue) = from.radiance;
+        let point = from.wi.mad(F::gather(&pairs.approach, pair), center.add(aside));
         SkyStart {
-            point: from.wi.mad(F::gather(&pairs.approach, pair), center.add(aside)),
+            point,
             direction: from.wi.neg(),
             flux: V3::<F>::gather_columns(&pairs.flux, pair).mul(from.radiance).scale(from.inverse_pdf),
-            bright: F::splat(bright.least).lt(red + green + blue) & zero.lt(from.inverse_pdf),
+            radiance: from.radiance,
+            inverse_pdf: from.inverse_pdf,
+            bright: bright.has(from.radiance) & zero.lt(from.inverse_pdf) & !behind_planes(scene, point, from.wi),
         }
     }
+}
+
+/// Lanes that meet a plane between a point, which is outside of all that has an end, and the sky.
+#[inline(always)]
+fn behind_planes<F: Lanes>(scene: &Scene, point: V3<F>, towards: V3<F>) -> F::M {
+    let c = |x: f64| F::splat(x as f32);
+    scene.tables.planes.rows.iter().fold(F::M::from_bits(0), |behind, plane| {
+        let normal = V3(c(plane.normal[0]), c(plane.normal[1]), c(plane.normal[2]));
+        let (height, rises) = (point.dot(normal) - c(plane.offset), towards.dot(normal));
+        behind | (height * rises).lt(F::splat(0.0))
+    })
 }
 
 /// Stores the photons of a mask: where, whence, whence they seem to come, and their flux.

@@ -139,7 +139,7 @@ impl Words for Part {
         }
         let item = item.without_some();
         let span = item.span();
-        let value = reader.text(item, at)?.into_owned();
+        let value = reader.name_text(item, at)?.into_owned();
         Some(Part(Some(Box::new(Spanned { value, span }))))
     }
 

@@ -260,6 +260,7 @@ impl Words for Placements {
                     return None;
                 }
                 let mut list = PlacementList::default();
+                let errors = reader.errors();
                 reader.items(item, at, |reader, placement| {
                     if reader.placement_elsewhere(placement) {
                         return;
@@ -274,6 +275,17 @@ impl Words for Placements {
                         list.end();
                     }
                 });
+                // A list with something in it that comes to nothing is not what no list is.
+                if list.is_empty() && item.children().next().is_some() {
+                    if reader.errors() == errors {
+                        let message = "the placements come to none: an object stands once at least";
+                        let hint =
+                            "a Repeat around the object leaves it out: Repeat(count: \"=min(n, 1)\", items: [..])";
+                        let fault = Diagnostic::error(codes::OUT_OF_RANGE, item.head(), message);
+                        reader.report(fault.expected("one or more; [] is one, where `transform` puts it").hint(hint));
+                    }
+                    return None;
+                }
                 Some(if list.is_empty() { Placements::One } else { list.into() })
             }
             // It stands in a list, also where it is all of it.

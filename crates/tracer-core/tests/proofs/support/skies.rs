@@ -43,3 +43,21 @@ pub fn sky_without_a_sun() -> PathBuf {
         _ => [0.15, 0.1, 0.05],
     })
 }
+
+/// A sky with a sun of 34 degrees by 34, which paths find by chance, too; below the horizon something as bright.
+pub fn with_wide_suns() -> PathBuf {
+    sky("wide_suns.exr", [64, 32], ImageFormat::OpenExr, |i, j| match (i, j) {
+        (38..44, 6..12) => [16.0, 14.0, 10.0],
+        (20..24, 16..20) => [8.0, 12.0, 16.0],
+        (_, 0..16) => [0.1, 0.2, 0.3],
+        _ => [0.1, 0.08, 0.05],
+    })
+}
+
+/// Black but for a sun from the horizon to 22 degrees below.
+pub fn with_a_sun_below() -> PathBuf {
+    sky("sun_below.exr", [64, 32], ImageFormat::OpenExr, |i, j| match (i, j) {
+        (20..26, 17..20) => [50.0, 40.0, 30.0],
+        _ => [0.0; 3],
+    })
+}

@@ -5,7 +5,7 @@ mod picture;
 
 use crate::args::InfoArgs;
 use crate::cache;
-use crate::checkpoint::{self, is_film};
+use crate::checkpoint::{self, Place, is_film};
 use crate::failure::{Failure, exit};
 use crate::loading::{Known, asset_files, compile, is_dash, load};
 use crate::memory::{human, of_film};
@@ -74,7 +74,9 @@ fn of_checkpoint(args: &InfoArgs) -> Result<ExitCode, Failure> {
     let checked = file.and_then(|file| Ok((file.metadata()?.len(), SavedFilm::open(file)?.check()?)));
     let (bytes, head) = checked.map_err(|error| {
         let shown = path.display();
-        Failure::could_not(format!("{shown} cannot be used: {error}; the one before is {shown}.previous"))
+        let before = Place::unchecked(path).is_ok_and(|place| is_film(&place.previous()));
+        let before = if before { format!("; the one before is {shown}.previous") } else { String::new() };
+        Failure::could_not(format!("{shown} cannot be used: {error}{before}"))
     })?;
     let text = match args.json {
         true => format!("{:#}\n", checkpoint::as_json(path, bytes, &head)),
@@ -290,7 +292,7 @@ impl Facts {
 }
 
 /// Four significant digits and no more zeros than needed.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let digits = if x == 0.0 { 0 } else { (3 - x.abs().log10().floor() as i32).clamp(0, 12) };
     let text = format!("{x:.*}", digits as usize);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }

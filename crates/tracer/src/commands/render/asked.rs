@@ -6,13 +6,13 @@ use super::outputs::{self, Output};
 use super::{check_memory, crop, described, parts};
 use crate::args::RenderArgs;
 use crate::cache::Cache;
-use crate::checkpoint::Place;
+use crate::checkpoint::{Lock, Place};
 use crate::denoising::Denoiser;
 use crate::failure::Failure;
 use crate::lanes;
 use crate::loading::asset_files;
 use crate::shell::Shell;
-use scene_format::SceneDesc;
+use scene_format::{SceneDesc, hash_hex};
 use std::path::PathBuf;
 use tracer_core::{Crop, Level, Part};
 
@@ -30,6 +30,8 @@ pub(super) struct Asked<'a> {
     pub part: Option<Part>,
     /// Where the part goes, if it is one.
     pub part_file: Option<Place>,
+    /// Keeps others off it.
+    _part_lock: Option<Lock>,
     pub outputs: Vec<Output>,
     pub level: Level,
     pub denoiser: Option<Denoiser>,
@@ -57,9 +59,30 @@ impl<'a> Asked<'a> {
         frames.map_or(Ok(()), |frames| frames.is_as_before(&desc))?;
         let crop = crop(&args, &desc)?;
         let part = parts::part(&args, &desc, crop)?;
+        let part_lock = match (&part_file, &part) {
+            (Some(file), Some(part)) if !places.writes(file) => {
+                let lock = file.lock()?;
+                parts::spare_other(file, part, &hash_hex(&desc))?;
+                Some(lock)
+            }
+            _ => None,
+        };
         let crop = part.map_or(crop, |part| part.crop);
         check_memory(crop, &desc, args.denoise.how())?;
-        let asked = Asked { args, shell, frames, cache, desc, crop, part, part_file, outputs, level, denoiser };
+        let asked = Asked {
+            args,
+            shell,
+            frames,
+            cache,
+            desc,
+            crop,
+            part,
+            part_file,
+            _part_lock: part_lock,
+            outputs,
+            level,
+            denoiser,
+        };
         if part.is_none() && asked.args.show.is_none() && frames.is_none() {
             outputs::tell_of_layers(&asked.outputs, &asked.args, &asked.desc, shell);
         }

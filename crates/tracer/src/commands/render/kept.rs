@@ -8,7 +8,7 @@ use crate::checkpoint::{is_film, look_for, notes, picture_notes};
 use crate::failure::Failure;
 use crate::loading::is_dash;
 use crate::shell::{Shell, Verbosity};
-use crate::write::Provenance;
+use crate::write::{Provenance, WriteError};
 use scene_format::SceneDesc;
 use tracer_core::{Film, LayerSet, Note, Scene};
 
@@ -55,8 +55,15 @@ impl Places {
         if paths.into_iter().flatten().any(|path| is_dash(path)) {
             return Err(Failure::wrong("a checkpoint is a file: it cannot be standard input or output"));
         }
-        let resume = args.resume.as_deref().map(Place::new).transpose()?;
         let write = args.checkpoint.as_deref().map(Place::new).transpose()?;
+        let resume = args.resume.as_deref().map(|path| match &write {
+            // It is only read.
+            Some(_) if path.is_file() => {
+                Place::unchecked(path).map_err(|why| WriteError::Io { path: path.to_owned(), why }.into())
+            }
+            _ => Place::new(path),
+        });
+        let resume: Option<Place> = resume.transpose()?;
         let is_resumed = |place: &Place| resume.as_ref().is_some_and(|resume| resume.is(place));
         if let Some(place) =
             write.as_ref().filter(|place| !is_resumed(place) && place.file().try_exists().unwrap_or(true))
@@ -74,10 +81,11 @@ impl Places {
             }
         }
         let resume_lock = match (&resume, &write) {
-            (Some(resume), Some(write)) if !resume.is(write) => Some(resume.lock()?),
+            (Some(resume), Some(write)) if !resume.is(write) => resume.lock_to_read()?,
             _ => None,
         };
         let write = write.or(resume.clone());
+        write.as_ref().map_or(Ok(()), Place::spare_beside)?;
         let write = write.map(|place| place.lock().map(|lock| (place, lock))).transpose()?;
         Ok(Places { resume: resume.map(|place| (place, resume_lock)), write })
     }

@@ -2,15 +2,16 @@
 
 use super::outputs::kept;
 use crate::args::RenderArgs;
-use crate::checkpoint::{Flushing, Place, is_film, now, sha256_of};
+use crate::checkpoint::{Flushing, Place, is_film, note, now, part_told, sha256_of};
 use crate::failure::Failure;
 use crate::loading::is_dash;
 use crate::shell::Shell;
 use crate::write::{Encoding, Place as Output, WriteError, Written, is_one_file};
 use scene_format::SceneDesc;
 use sha2::{Digest, Sha256};
+use std::fs::File;
 use std::io::{self, Write};
-use tracer_core::{Crop, Film, Note, Part, Split};
+use tracer_core::{Crop, Film, FilmError, Note, Part, SavedFilm, Split};
 
 /// The extension of a part.
 pub const EXTENSION: &str = "tracer";
@@ -58,7 +59,30 @@ pub(in crate::commands) fn place(args: &RenderArgs) -> Result<Place, Failure> {
             "-o {shown} would replace what is no part, or cannot be read; name another file"
         )));
     }
-    Place::new(path)
+    let place = Place::new(path)?;
+    place.spare_beside()?;
+    Ok(place)
+}
+
+/// Sees that a part does not replace another finished one of the same rendering, whose hash is given: a slip of the
+/// name would lose it.
+///
+/// # Errors
+/// That it would.
+pub(super) fn spare_other(place: &Place, part: &Part, hash: &str) -> Result<(), Failure> {
+    let saved = File::open(place.file()).map_err(FilmError::Io).and_then(SavedFilm::open);
+    let Ok(saved) = saved else { return Ok(()) };
+    let (head, there) = (saved.head(), saved.head().part());
+    let of = |part: &Part| (part.of_crop, part.of_samples);
+    let is_other = there != *part && of(&there) == of(part) && note(head, "hash") == hash;
+    if !(is_other && head.is_finished()) {
+        return Ok(());
+    }
+    Err(Failure::wrong(format!(
+        "-o {} would replace another part of this rendering, {}, which is finished; name another file, or delete it",
+        place.name(),
+        part_told(Some(there))
+    )))
 }
 
 /// The part that the command line asks for.

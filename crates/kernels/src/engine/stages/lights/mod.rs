@@ -141,11 +141,23 @@ impl<F: Lanes> LightSample<F> {
     }
 }
 
-/// The density with which [`choose`] and [`sample`] take a direction that leaves the scene, and what comes from there.
+/// What comes from where a direction leaves the scene.
+#[derive(Clone, Copy)]
+pub struct Beyond<F: Lanes> {
+    /// The picture's density there.
+    pub pdf: F,
+    /// The density with which [`choose`] and [`sample`] take it.
+    pub sampled: F,
+    /// Its radiance.
+    pub radiance: V3<F>,
+}
+
+/// Of a direction that leaves the scene.
 #[inline(always)]
-pub fn beyond<F: Lanes>(lights: &LightTable, environment: &Environment, direction: V3<F>) -> (F, V3<F>) {
+pub fn beyond<F: Lanes>(lights: &LightTable, environment: &Environment, direction: V3<F>) -> Beyond<F> {
     let (pdf, radiance) = environment::pdf_and_radiance(environment, direction);
-    (if lights.asked == 0 { pdf } else { pdf * F::splat(selection::ENVIRONMENT) }, radiance)
+    let sampled = if lights.asked == 0 { pdf } else { pdf * F::splat(selection::ENVIRONMENT) };
+    Beyond { pdf, sampled, radiance }
 }
 
 /// The row of a flat light; anything for others.

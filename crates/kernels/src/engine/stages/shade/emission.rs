@@ -6,8 +6,8 @@ use super::vertex::{Ray, has};
 use crate::engine::batch::{Columns, Hits, ITEMS, Paths, path};
 use crate::engine::guide::Guide;
 use crate::engine::stages::aim;
-use crate::engine::stages::light_paths::density_ratio;
-use crate::engine::stages::lights::{self, LightHit, Receiver};
+use crate::engine::stages::light_paths::{density_ratio, density_ratio_of_sky};
+use crate::engine::stages::lights::{self, Beyond, LightHit, Receiver};
 use crate::engine::stages::surface::Surface;
 use crate::lanes::{Bits, Lanes, Mask};
 use crate::math::V3;
@@ -77,13 +77,30 @@ impl<F: Lanes> Stage<'_, F> {
             && lanes.any()
         {
             let by_rays = by_rays.unwrap_or_else(|| F::load(&paths.pdf[ray.first..]));
-            let (sampled, radiance) = lights::beyond(lights, environment, ray.direction);
+            let sky = lights::beyond(lights, environment, ray.direction);
             // Of mirrors and glass no light sample takes this direction; an aimed ray is a rough surface's.
             let not_sampled = has(ray.slot, path::SPECULAR) & !aimed;
-            let weight = F::select(not_sampled, F::splat(1.0), power_heuristic(by_rays, sampled));
-            light = ray.throughput.mul(radiance).scale(shown * weight);
+            let weight = F::select(not_sampled, F::splat(1.0), power_heuristic(by_rays, sky.sampled));
+            let weight = self.beside_light_paths(ray, paths, lanes, &sky, weight);
+            light = ray.throughput.mul(sky.radiance).scale(shown * weight);
         }
         Seen { light, lanes }
+    }
+
+    /// What rays count by that have come over mirrors and glass to where light paths come from, too; of others
+    /// `weight`.
+    #[inline(always)]
+    fn beside_light_paths(&self, ray: &Ray<F>, paths: &Paths, lanes: F::M, sky: &Beyond<F>, weight: F) -> F {
+        let Some((light_paths, plan)) = self.pass.light_paths.filter(|_| self.vertex > 1) else { return weight };
+        let ratio = F::load(&paths.film[ray.first..]);
+        let found = lanes & F::splat(0.0).lt(ratio);
+        if !found.any() {
+            return weight;
+        }
+        let from = [&paths.from_primitive, &paths.from_instance].map(|column| F::U::load(&column[ray.first..]));
+        let by_light = density_ratio_of_sky(light_paths, plan, (sky.pdf, sky.radiance), from, ratio, found);
+        let one = F::splat(1.0);
+        F::select(found, one / (one + by_light), weight)
     }
 
     /// Of rays that see the sky, which those that are aimed from the same surface may see, too: the density of both
