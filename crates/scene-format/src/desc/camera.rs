@@ -197,6 +197,16 @@ impl Words for Camera {
             let by_matrix = fields.iter().any(|field| field.name == "matrix" && field.value != Form::word("None"));
             fields.retain(|field| !by_matrix || !matches!(&*field.name, "position" | "look_at" | "up"));
         }
+        if let Form::Struct { fields, .. } = &mut form {
+            // What nothing is said by is not written beside what says it.
+            let is_other = self.projection != Projection::Perspective;
+            let is_idle = |name: &str| match name {
+                "fov" | "fov_axis" => is_other || self.focal_length.is_some(),
+                "focal_length" | "sensor_width" => is_other,
+                _ => false,
+            };
+            fields.retain(|field| !is_idle(&field.name));
+        }
         form
     }
 }
@@ -279,12 +289,15 @@ impl Camera {
         if along_width { [half / aspect, half] } else { [half, half * width / height] }
     }
 
-    /// Fields that say something else than their defaults, and nothing beside what others say: each with its place, and
-    /// why. Defaults may be written out.
+    /// Fields that are written, or say something else than their defaults, and nothing beside what others say: each
+    /// with its place, and why.
     pub(crate) fn of_no_use(&self) -> Vec<(&'static str, Span, &'static str)> {
         let place = |field: Option<Span>| field.unwrap_or(Span::NONE);
         let default = Camera::default();
-        let fov = (self.fov.value != default.fov.value).then_some(self.fov.span);
+        let said = |field: &Spanned<f64>, default: &Spanned<f64>| {
+            (field.span != Span::NONE || field.value != default.value).then_some(field.span)
+        };
+        let fov = said(&self.fov, &default.fov);
         let fov_axis = (self.fov_axis != FovAxis::Vertical).then_some(Span::NONE);
         let focal_length = self.focal_length.as_ref().map(|length| length.span);
         let shift = (self.shift.value != default.shift.value).then_some(self.shift.span);
@@ -295,26 +308,31 @@ impl Camera {
             let there = list.iter().filter(|(_, span)| span.is_some());
             fields.extend(there.map(|&(name, span)| (name, place(span), why)));
         };
+        let width = said(&self.sensor_width, &default.sensor_width);
         match self.projection {
             Projection::Perspective if focal_length.is_some() => {
                 none_of("`focal_length` says how wide the view is", &[("fov_axis", fov_axis)]);
             }
             Projection::Perspective => {
-                let width = (self.sensor_width.value != default.sensor_width.value).then_some(self.sensor_width.span);
+                // Its default may be written out.
+                let width = width.filter(|_| self.sensor_width.value != default.sensor_width.value);
                 none_of("it goes with a `focal_length`", &[("sensor_width", width)]);
             }
             Projection::Orthographic { .. } => {
-                let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
+                let angles =
+                    [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length), ("sensor_width", width)];
                 none_of("the `height` of the projection says what is seen", &angles);
                 none_of("parallel rays show both eyes the same", &[("stereo", stereo)]);
             }
             Projection::Panorama => {
-                let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
+                let angles =
+                    [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length), ("sensor_width", width)];
                 none_of("a panorama shows all directions", &angles);
                 none_of("a panorama has no plane", &[("shift", shift), ("near", near)]);
             }
             Projection::Fisheye { .. } => {
-                let angles = [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length)];
+                let angles =
+                    [("fov", fov), ("fov_axis", fov_axis), ("focal_length", focal_length), ("sensor_width", width)];
                 none_of("the projection has a `fov` of its own", &angles);
                 none_of("a fisheye has no plane", &[("shift", shift), ("near", near)]);
                 none_of("a fisheye has one eye, `Perspective` and `Panorama` two", &[("stereo", stereo)]);

@@ -250,7 +250,9 @@ impl Reader<'_> {
             ("look_at", &camera.look_at, default.look_at),
             ("up", &camera.up, default.up),
         ];
-        if let Some((name, other, _)) = others.into_iter().find(|(_, other, default)| *other != default) {
+        if let Some((name, other, _)) =
+            others.into_iter().find(|(_, other, default)| other.span != Span::NONE || *other != default)
+        {
             let message = format!("the camera has both `matrix` and `{name}`");
             let fault = Diagnostic::error(codes::EXACTLY_ONE, matrix.span, message)
                 .expected("`matrix`, or `position`, `look_at` and `up`")
@@ -366,7 +368,7 @@ impl Reader<'_> {
             let message = "`convergence` has no use here: the eyes of a panorama look straight ahead, whichever way";
             self.report(Diagnostic::error(codes::NO_USE, convergence.span, message).hint("leave `convergence` out"));
         }
-        let other_fov = camera.fov.value != Camera::default().fov.value;
+        let other_fov = camera.fov.span != Span::NONE || camera.fov.value != Camera::default().fov.value;
         if let (Some(length), Projection::Perspective, true) = (&camera.focal_length, &camera.projection, other_fov) {
             self.path = at(&["focal_length"]);
             let fault =
