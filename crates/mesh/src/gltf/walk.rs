@@ -475,6 +475,9 @@ impl<'w, 'a> Walk<'w, 'a> {
         const BYTES: u64 = 3 * 12;
         let count = if mode == 4 { corners / 3 } else { corners.saturating_sub(2) };
         self.buffers.spend(BYTES * count as u64, at)?;
+        // What is left of the corners is no triangle.
+        let left = if mode == 4 { corners % 3 } else { corners % 3 * usize::from(corners < 3) };
+        self.builder.oddities.add_many(Oddity::SmallFace, u64::from(left > 0));
         for k in 0..count {
             // Section 3.7.2.1 of the specification has the order of strips and fans.
             let [a, b, c] = match mode {

@@ -30,6 +30,19 @@ fn a_square_comes_as_it_is() {
     assert_eq!(swapped.triangles, mesh.triangles);
 }
 
+/// Corners behind the last triangle are told.
+#[test]
+fn corners_that_make_no_triangle() {
+    let mut file = File::new();
+    let positions = file.floats(&SQUARE);
+    let indices = file.shorts(&[0, 1, 2, 0, 2]);
+    let mesh = file.mesh(json!([{ "attributes": { "POSITION": positions }, "indices": indices }]));
+    file.root(json!({ "mesh": mesh }));
+    let mesh = file.read();
+    assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    assert!(mesh.warnings[0].message.contains("1 face of fewer than 3 corners (left out)"), "{:?}", mesh.warnings);
+}
+
 #[test]
 fn strips_and_fans_are_unwound() {
     for (mode, expected) in [(5, vec![[0, 1, 2], [1, 3, 2], [2, 3, 4]]), (6, vec![[1, 2, 0], [2, 3, 0], [3, 4, 0]])] {
