@@ -9,7 +9,7 @@ use scene_format::{SceneDesc, Syntax, load_str};
 use std::path::Path;
 
 /// All that are compared here, for the strictness of the tests.
-const SCENES: usize = 5;
+const SCENES: usize = 6;
 
 fn read(text: &str) -> SceneDesc {
     load_str("s.ron", text, Syntax::Ron, Path::new(""), &[]).expect("a scene").scene
@@ -49,6 +49,17 @@ fn beside_a_lamp_and_planes() {
                   Plane(point: (0, 0, -2.5), normal: (0.1, 0, 1), material: Diffuse(albedo: 0.6))";
     let scene = under(&with_wide_suns(), more, &format!("{THINGS}, {planes}"));
     assert_guiding_is_unbiased("suns, a lamp and planes", &scene, 512, SCENES);
+}
+
+/// Beside a dim lamp, with which the picture shares the light samples, all light comes from a sun below the horizon over
+/// a mirror above: what both ends count is seen in all of it.
+#[test]
+fn where_all_light_comes_over_a_mirror() {
+    let more = "camera: Camera(position: (0, 1.2, 3), look_at: (0, 0, 0), fov: 40), \
+                lights: [SphereLight(center: (0, 40, 0), radius: 0.1, radiance: 1)],";
+    let mirror = "Box(center: (0, 1.5, 0), size: (6, 0.1, 6), material: Mirror(reflectance: 0.9))";
+    let scene = under(&with_a_sun_below(), more, mirror);
+    assert_guiding_is_unbiased("over a mirror", &scene, 512, SCENES);
 }
 
 /// More casters than pairs allow, taken together, behind a pane; meshes with interpolated normals.
