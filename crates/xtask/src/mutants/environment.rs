@@ -46,8 +46,8 @@ pub const MUTANTS: &[Mutant] = &[
     Mutant {
         name: "environment-counts-twice",
         file: "crates/kernels/src/engine/stages/shade/emission.rs",
-        find: "light = ray.throughput.mul(radiance).scale(shown * weight);",
-        replace: "light = ray.throughput.mul(radiance).scale(shown * (weight * F::splat(0.5) + F::splat(0.5)));",
+        find: "light = ray.throughput.mul(sky.radiance).scale(shown * weight);",
+        replace: "light = ray.throughput.mul(sky.radiance).scale(shown * (weight * F::splat(0.5) + F::splat(0.5)));",
         caught_by: proofs(&["environment::a_picture_of_one_colour_is_a_background_of_that_colour"]),
     },
     Mutant {
