@@ -51,8 +51,8 @@ fn beside_a_lamp_and_planes() {
     assert_guiding_is_unbiased("suns, a lamp and planes", &scene, 512, SCENES);
 }
 
-/// Beside a dim lamp, with which the picture shares the light samples, all light comes from a sun below the horizon over
-/// a mirror above: what both ends count is seen in all of it.
+/// Beside a dim lamp, with which the picture shares the light samples, all light comes from a sun below the horizon
+/// over a mirror above: what both ends count is seen in all of it.
 #[test]
 fn where_all_light_comes_over_a_mirror() {
     let more = "camera: Camera(position: (0, 1.2, 3), look_at: (0, 0, 0), fov: 40), \
