@@ -7,6 +7,7 @@ mod denoise;
 mod farm;
 mod fmt;
 mod golden;
+mod info;
 mod inspect;
 mod marks;
 mod merge;
@@ -22,6 +23,7 @@ pub use denoise::{DenoiseArgs, DenoiseName};
 pub use farm::{FarmArgs, FarmCancelArgs, FarmCommand, FarmSlurmArgs, FarmStatusArgs};
 pub use fmt::FmtArgs;
 pub use golden::{GoldenAcceptArgs, GoldenArgs, GoldenCommand, GoldenNewArgs, GoldenRunArgs};
+pub use info::InfoArgs;
 pub use inspect::{InspectArgs, InspectForm};
 pub use marks::{MarksArgs, MarksForm};
 pub use merge::MergeArgs;
@@ -268,31 +270,6 @@ const SCHEMA_EXAMPLES: &str = "\
 Examples:
   tracer schema > scene.schema.json
   tracer schema | jq .properties.camera";
-
-const INFO_EXAMPLES: &str = "\
-Examples:
-  tracer info scene.toml --objects
-  tracer info fig4.png
-
-Of a picture it tells what made it; `tracer repro` makes it again.";
-
-/// `tracer info`
-#[derive(Debug, Args)]
-#[command(after_help = INFO_EXAMPLES)]
-pub struct InfoArgs {
-    #[command(flatten)]
-    #[allow(missing_docs)]
-    pub scene: SceneArgs,
-    /// As JSON
-    #[arg(long)]
-    pub json: bool,
-    /// Tell instead where every object is, and in which pixels
-    #[arg(long)]
-    pub objects: bool,
-    /// Print the scene with every default filled in instead
-    #[arg(long, conflicts_with_all = ["json", "objects"])]
-    pub resolved: bool,
-}
 
 const CONVERT_EXAMPLES: &str = "\
 Examples:

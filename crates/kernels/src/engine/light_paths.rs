@@ -21,9 +21,10 @@ pub struct LightPaths {
     pub seed: u32,
     /// Those of one sample index.
     pub shares: Vec<Share>,
-    /// Pair of light `l` and caster `c`, at `l` times the number of casters plus `c`, or [`NONE`]; the sky is a light
-    /// behind the numbered ones.
+    /// Pair of light `l` and caster `c`, at `l` times the number of casters plus `c`, or [`NONE`].
     pub pair_of: Vec<u32>,
+    /// The sky's number among the lights, behind all others.
+    pub sky: u32,
     /// Per pair: light paths of a sample index over the area of light that they start from, of the sky over that of
     /// the disc before the caster.
     pub density: Vec<f32>,
@@ -52,7 +53,14 @@ impl LightPaths {
             density[pair] = share.count as f32 / plan.pairs.area[pair];
         }
         let seed = hash3(seed, 0, 0x0011_6847) as u32;
-        (!shares.is_empty()).then_some(LightPaths { seed, shares, pair_of, density, reach })
+        (!shares.is_empty()).then_some(LightPaths {
+            seed,
+            shares,
+            pair_of,
+            sky: scene.lights.len() as u32,
+            density,
+            reach,
+        })
     }
 
     /// Sample indices that are followed at a time.

@@ -1,5 +1,6 @@
 //! Groups of lights.
 
+use super::name::text_of_name;
 use crate::codes;
 use crate::diagnostic::Diagnostic;
 use crate::form::Form;
@@ -40,7 +41,7 @@ impl Words for LightGroup {
             return Some(LightGroup::default());
         }
         let item = item.without_some();
-        let name = reader.name_text(item, at)?;
+        let name = text_of_name(reader, item, at)?;
         let (message, expected) = if name == LightGroup::REST {
             let message = "\"rest\" is what the lights are called that are of no group".to_owned();
             (message, "another name, or no group".to_owned())

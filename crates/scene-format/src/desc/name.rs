@@ -1,10 +1,13 @@
 //! Names of objects and lights.
 
+use crate::codes;
+use crate::diagnostic::Diagnostic;
 use crate::form::Form;
 use crate::read::Reader;
 use crate::schema::{FieldDef, Type};
 use crate::tree::Item;
 use crate::words::Words;
+use std::borrow::Cow;
 
 /// What an object or a light is called, if anything. Eight bytes long, as a scene may have millions of things without a
 /// name.
@@ -32,11 +35,27 @@ impl Words for Name {
         if item.is_word("None") {
             return Some(Name::default());
         }
-        let text = reader.name_text(item.without_some(), at)?;
+        let text = text_of_name(reader, item.without_some(), at)?;
         Some(Name::from(Some(text)))
     }
 
     fn form(&self, _all: bool) -> Form {
         self.as_str().map_or(Form::word("None"), |name| Form::Text(name.to_owned()))
     }
+}
+
+/// A text that names something: "None" says in TOML that nothing is named, and is no name in RON either, so that a
+/// scene is the same in both.
+pub(crate) fn text_of_name<'s>(
+    reader: &mut Reader<'_>,
+    item: Item<'_, 's>,
+    at: &'static FieldDef,
+) -> Option<Cow<'s, str>> {
+    let text = reader.text(item, at)?;
+    if text == "None" {
+        let fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), "\"None\" is no name");
+        reader.report(fault.expected("another name, or none").hint("write None without quotes, or another name"));
+        return None;
+    }
+    Some(text)
 }

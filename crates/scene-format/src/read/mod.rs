@@ -401,6 +401,11 @@ impl<'r> Reader<'r> {
         }
     }
 
+    /// How many errors have been reported.
+    pub(crate) fn errors(&self) -> usize {
+        self.sink.errors
+    }
+
     fn duplicate(&mut self, key: Item<'_, '_>, name: &str, first: Item<'_, '_>) {
         let lists = matches!(first.kind(), Kind::List | Kind::Map);
         let way = if lists { "put both into one, or remove one of the two" } else { "remove one of the two" };

@@ -432,23 +432,6 @@ impl Words for bool {
 }
 
 impl Reader<'_> {
-    /// How many errors have been reported.
-    pub(crate) fn errors(&self) -> usize {
-        self.sink.errors
-    }
-
-    /// A text that names something: `"None"` says in TOML that nothing is named, and is no name in RON either, so that
-    /// a scene is the same in both.
-    pub(crate) fn name_text<'s>(&mut self, item: Item<'_, 's>, at: &'static FieldDef) -> Option<Cow<'s, str>> {
-        let text = self.text(item, at)?;
-        if text == "None" {
-            let fault = Diagnostic::error(codes::WRONG_TYPE, item.span(), "\"None\" is no name");
-            self.report(fault.expected(expected_for(at, item)).hint("write None without quotes, or another name"));
-            return None;
-        }
-        Some(text)
-    }
-
     /// A text that is not empty.
     pub(crate) fn text<'s>(&mut self, item: Item<'_, 's>, at: &'static FieldDef) -> Option<Cow<'s, str>> {
         if item.kind() != Kind::Text {

@@ -1,8 +1,8 @@
 //! The bright parts of a picture of all directions: a sun, a window, the lamps of a studio.
 //!
 //! Light samples find them, but not over mirrors and glass: behind a ball of glass or a pane what a sun brings is met
-//! by rays that happen to go there. So photons are sent from these parts at the casters, as they are from lights. Of
-//! what is alike all around rays by chance find as much.
+//! by rays that happen to go there. So photons and light paths are sent from these parts at the casters, as they are
+//! from lights. Of what is alike all around rays by chance find as much.
 
 use super::approach::balls;
 use super::casters::Caster;

@@ -181,10 +181,8 @@ pub fn density_ratio_of_sky<F: Lanes>(
     mask: F::M,
 ) -> F {
     let Some(bright) = &plan.bright else { return F::splat(0.0) };
-    // The numbered lights are before it.
-    let numbered = light_paths.pair_of.len() / plan.casters.list.len() - 1;
     let mask = mask & bright.has(radiance);
-    let (pair, known) = pair_of::<F>(light_paths, plan, F::U::splat(numbered as u32), from, mask);
+    let (pair, known) = pair_of::<F>(light_paths, plan, F::U::splat(light_paths.sky), from, mask);
     let per_path = F::gather(&light_paths.density, pair) * density;
     F::select(known, per_path * ratio, F::splat(0.0))
 }

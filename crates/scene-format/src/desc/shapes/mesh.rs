@@ -3,6 +3,7 @@
 use super::Placements;
 use super::inline_mesh::{Colors, InlineMesh, Points, Written, WrittenFaces};
 use crate::codes;
+use crate::desc::name::text_of_name;
 use crate::desc::{Faulty, MaterialRef, Name, ShapeWords, Transform};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::files::FileKind;
@@ -139,7 +140,7 @@ impl Words for Part {
         }
         let item = item.without_some();
         let span = item.span();
-        let value = reader.name_text(item, at)?.into_owned();
+        let value = text_of_name(reader, item, at)?.into_owned();
         Some(Part(Some(Box::new(Spanned { value, span }))))
     }
 

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::lanes;
 use crate::loading::asset_files;
 use crate::shell::Shell;
-use scene_format::{SceneDesc, hash_hex};
+use scene_format::SceneDesc;
 use std::path::PathBuf;
 use tracer_core::{Crop, Level, Part};
 
@@ -62,7 +62,7 @@ impl<'a> Asked<'a> {
         let part_lock = match (&part_file, &part) {
             (Some(file), Some(part)) if !places.writes(file) => {
                 let lock = file.lock()?;
-                parts::spare_other(file, part, &hash_hex(&desc))?;
+                parts::spare_other(file, part, &desc)?;
                 Some(lock)
             }
             _ => None,

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::loading::is_dash;
 use crate::shell::Shell;
 use crate::write::{Encoding, Place as Output, WriteError, Written, is_one_file};
-use scene_format::SceneDesc;
+use scene_format::{SceneDesc, hash_hex};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{self, Write};
@@ -64,18 +64,17 @@ pub(in crate::commands) fn place(args: &RenderArgs) -> Result<Place, Failure> {
     Ok(place)
 }
 
-/// Sees that a part does not replace another finished one of the same rendering, whose hash is given: a slip of the
-/// name would lose it.
+/// Sees that a part does not replace another finished one of the same rendering: a slip of the name would lose it.
 ///
 /// # Errors
 /// That it would.
-pub(super) fn spare_other(place: &Place, part: &Part, hash: &str) -> Result<(), Failure> {
+pub(super) fn spare_other(place: &Place, part: &Part, desc: &SceneDesc) -> Result<(), Failure> {
     let saved = File::open(place.file()).map_err(FilmError::Io).and_then(SavedFilm::open);
     let Ok(saved) = saved else { return Ok(()) };
     let (head, there) = (saved.head(), saved.head().part());
     let of = |part: &Part| (part.of_crop, part.of_samples);
-    let is_other = there != *part && of(&there) == of(part) && note(head, "hash") == hash;
-    if !(is_other && head.is_finished()) {
+    let is_other = head.is_finished() && there != *part && of(&there) == of(part);
+    if !is_other || note(head, "hash") != hash_hex(desc) {
         return Ok(());
     }
     Err(Failure::wrong(format!(
