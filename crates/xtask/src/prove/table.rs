@@ -106,8 +106,8 @@ pub const PROOFS: &[Proof] = &[
     proof(
         "faults",
         Always,
-        "every call to the system that concerns a file fails in one of the usual ways, blocks of memory are refused; two \
-         minutes",
+        "every call to the system that concerns a file fails in one of the usual ways, blocks of memory are refused; \
+         two minutes",
         &[],
         &["cargo test --locked --workspace --test faults"],
     ),
