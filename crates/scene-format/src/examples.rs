@@ -4,9 +4,9 @@
 pub(crate) mod lines;
 
 use crate::desc::{
-    Acceleration, Caustics, Curve, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong, Material,
-    Matte, Metal, NoiseKind, Object, PixelFilter, RampInterpolation, Reuse, Shading, SolidMapping, TextureChannel,
-    TextureColorSpace, TextureFilter, TextureWrap, ToneMap, VertexColorSpace, VoronoiFeature,
+    Acceleration, Adaptive, Caustics, Curve, GradientAxis, Indirect, Instances, Integrator, Layer, Light, LinesAlong,
+    Material, Matte, Metal, NoiseKind, Object, PixelFilter, RampInterpolation, Reuse, Shading, SolidMapping,
+    TextureChannel, TextureColorSpace, TextureFilter, TextureWrap, ToneMap, VertexColorSpace, VoronoiFeature,
 };
 use crate::desc::{
     BackgroundWords, DepthOfField, FisheyeMapping, FovAxis, ITEMS, MappingWords, PatternWords, PlacementPattern,
@@ -53,7 +53,7 @@ const SKY: ExampleFile = ExampleFile { name: "sky.hdr", bytes: include_bytes!("s
 const CHAIR: ExampleFile = ExampleFile { name: "chair.ron", bytes: include_bytes!("chair.ron") };
 
 /// The choices of the language, each kind of which has an example.
-pub(crate) const CHOICES: [&EnumDef; 39] = [
+pub(crate) const CHOICES: [&EnumDef; 40] = [
     &Projection::DEF,
     &FovAxis::DEF,
     &FisheyeMapping::DEF,
@@ -64,6 +64,7 @@ pub(crate) const CHOICES: [&EnumDef; 39] = [
     &ToneMap::DEF,
     &Layer::DEF,
     &Matte::DEF,
+    &Adaptive::DEF,
     &Acceleration::DEF,
     &Integrator::DEF,
     &Reuse::DEF,
@@ -97,7 +98,7 @@ pub(crate) const CHOICES: [&EnumDef; 39] = [
 
 /// What stands in an example for each kind: the name of the choice, the name of the kind, the words. Those of materials
 /// and shapes stand at their own words.
-const SNIPPETS: [(&str, &str, &str); 155] = [
+const SNIPPETS: [(&str, &str, &str); 158] = [
     ("Projection", "Perspective", "projection: Perspective"),
     ("Projection", "Orthographic", "projection: Orthographic(height: 8)"),
     ("Projection", "Panorama", "projection: Panorama"),
@@ -146,6 +147,9 @@ const SNIPPETS: [(&str, &str, &str); 155] = [
     ("Layer", "DenoisingNormal", "layers: [DenoisingAlbedo, DenoisingNormal]"),
     ("Matte", "Objects", "cryptomatte: [Objects]"),
     ("Matte", "Materials", "cryptomatte: [Materials]"),
+    ("Adaptive", "WithNoise", "noise: 0.02, adaptive: WithNoise"),
+    ("Adaptive", "Always", "samples: 256, adaptive: Always"),
+    ("Adaptive", "Never", "noise: 0.02, adaptive: Never"),
     ("Acceleration", "Bvh", "acceleration: Bvh"),
     ("Acceleration", "BoundingBox", "acceleration: BoundingBox"),
     ("Acceleration", "None", "acceleration: None"),
@@ -377,6 +381,7 @@ fn example(choice: &str, kind: &str, words: &'static str) -> Example {
         }
         "PixelFilter" | "DepthOfField" | "ToneMap" => more = format!("    effects: Effects({words}),\n"),
         "Layer" | "Matte" => more = format!("    output: Output({words}),\n"),
+        "Adaptive" => render = words.to_owned(),
         "Acceleration" | "Integrator" | "Reuse" | "Caustics" | "Indirect" => render = format!("{render}, {words}"),
         "Light" => light = words.to_owned(),
         "BackgroundWords" => {

@@ -31,6 +31,7 @@ of_words![
     Camera,
     Image,
     Render,
+    Adaptive,
     Acceleration,
     Integrator,
     Reuse,

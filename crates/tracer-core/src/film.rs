@@ -4,6 +4,7 @@
 //! same bytes: they are whole numbers in a window that goes by the scene's brightest light ([`exact`]). All that is
 //! read is in the scene's own units.
 
+mod adaptive;
 mod cells;
 mod exact;
 mod file;
@@ -21,12 +22,13 @@ mod plan;
 mod record;
 mod state;
 
+pub(crate) use adaptive::{Adaptive, FROM, MOST, run_end};
 pub(crate) use cells::Cells;
 pub use file::{FilmError, Note, PROGRAM, SavedFilm};
 use groups::TileGroups;
 pub(crate) use groups::{FilmGroups, Samples};
 use halves::TileHalf;
-pub(crate) use halves::{half_end, half_of};
+pub(crate) use halves::half_end;
 pub use head::FilmHead;
 pub use layers::LayerImage;
 use layers::{FilmLayer, TileLayers};
@@ -46,7 +48,8 @@ use bytemuck::allocation::try_zeroed_vec;
 use exact::{LARGEST, Squares, Sums, fixed};
 use scene_format::Diagnostics;
 use std::alloc::{Layout, handle_alloc_error};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
+use std::sync::Arc;
 use tracer_kernels::layers::{Kept, Layer, LayerSet};
 use tracer_kernels::level::Level;
 use tracer_kernels::report::{Costs, Counters, Statistics};
@@ -106,6 +109,8 @@ pub(crate) struct Tile {
     squares: Squares,
     /// Samples of each pixel so far, dropped ones included.
     samples: [u32; PIXELS],
+    /// How much it rests ([`adaptive`]).
+    rest: u32,
     /// Mean luminance of each pixel when the film had the samples of its last octave ([`noise`]).
     octave: [f32; PIXELS],
     /// Where samples are clamped.
@@ -294,6 +299,8 @@ pub struct Film {
     pub(crate) whole: u32,
     /// Beyond these, what a pass that was ended early has left to do.
     pub(crate) unfinished: Option<Unfinished>,
+    /// Which tiles rest, where that was decided.
+    adaptive: Option<Arc<Adaptive>>,
     /// The sample index whose light paths are not on the film yet, counted as [`Film::whole`].
     pub(crate) light_samples: u32,
     /// What the noise is told by.
@@ -352,6 +359,7 @@ impl Film {
             tiles,
             whole: 0,
             unfinished: None,
+            adaptive: None,
             light_samples: 0,
             octave: Octave::default(),
             counters: Counters::default(),
@@ -429,20 +437,30 @@ impl Film {
     }
 
     /// Samples of all pixels together.
-    pub(crate) fn camera_samples(&self) -> u64 {
+    pub fn camera_samples(&self) -> u64 {
         self.tiles.iter().flat_map(|tile| tile.samples).map(u64::from).sum()
     }
 
     /// Samples of the pixels that have fewest and of those that have most: different only when a rendering was ended
-    /// early.
-    pub fn samples(&self) -> std::ops::RangeInclusive<u32> {
-        let counts = || {
-            self.pixels().map(|(x, y)| {
-                let (tile, pixel) = self.place(x, y);
-                tile.samples[pixel]
-            })
-        };
-        counts().min().unwrap_or(0)..=counts().max().unwrap_or(0)
+    /// early. Where quiet tiles take fewer ([`Film::is_adaptive`]), of those that take all.
+    pub fn samples(&self) -> RangeInclusive<u32> {
+        let takes_all = |&(x, y): &(u32, u32)| self.place(x, y).0.rest == 0;
+        let of_all = self.samples_among(self.pixels().filter(takes_all));
+        let until = self.whole.saturating_sub(self.first());
+        of_all.unwrap_or(if self.is_adaptive() { until..=until } else { 0..=0 })
+    }
+
+    /// Fewest and most samples of a pixel, those of quiet tiles among them.
+    pub fn samples_of_pixels(&self) -> RangeInclusive<u32> {
+        self.samples_among(self.pixels()).unwrap_or(0..=0)
+    }
+
+    fn samples_among(&self, pixels: impl Iterator<Item = (u32, u32)> + Clone) -> Option<RangeInclusive<u32>> {
+        let counts = pixels.map(|(x, y)| {
+            let (tile, pixel) = self.place(x, y);
+            tile.samples[pixel]
+        });
+        Some(counts.clone().min()?..=counts.max()?)
     }
 
     /// Bytes of memory that the sums take.
@@ -482,20 +500,21 @@ impl Film {
     #[inline]
     pub fn radiance(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
-        self.mean(&tile.sums, tile.splats.as_ref().map(|splats| &splats.sums), pixel, tile.samples[pixel])
+        self.mean(tile, (&tile.sums, tile.splats.as_ref().map(|splats| &splats.sums)), pixel)
     }
 
-    /// Mean radiance of a pixel that has so many samples, over what they and what light paths have brought.
+    /// Mean radiance of a pixel of a tile, over what its samples and what light paths have brought.
     #[inline(always)]
-    fn mean(&self, sums: &Sums, splats: Option<&Sums>, pixel: usize, samples: u32) -> [f64; 3] {
+    fn mean(&self, tile: &Tile, (sums, splats): (&Sums, Option<&Sums>), pixel: usize) -> [f64; 3] {
+        let samples = tile.samples[pixel];
         let [r, g, b] = match splats {
             None => sums.mean(pixel, samples),
             // As always but where a rendering was ended early; half the work.
-            Some(splats) if self.unfinished.is_none() && samples == self.light_samples.saturating_sub(self.first()) => {
+            Some(splats) if self.unfinished.is_none() && f64::from(samples) == self.light_of(tile) => {
                 sums.mean_with(splats, pixel, samples)
             }
             Some(splats) => {
-                let (of_paths, of_light) = (sums.mean(pixel, samples), splats.mean(pixel, self.light_count()));
+                let (of_paths, of_light) = (sums.mean(pixel, samples), splats.mean(pixel, self.light_of(tile)));
                 [of_paths[0] + of_light[0], of_paths[1] + of_light[1], of_paths[2] + of_light[2]]
             }
         };
@@ -505,7 +524,7 @@ impl Film {
     /// What of [`Film::radiance`] light paths brought.
     pub(crate) fn of_light_paths(&self, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
-        let count = self.light_count();
+        let count = self.light_of(tile);
         tile.splats.as_ref().map_or([0.0; 3], |splats| splats.sums.mean(pixel, count).map(|x| x * self.unit))
     }
 
@@ -537,7 +556,7 @@ impl Film {
     }
 
     /// The pixels that this film holds, row by row.
-    fn pixels(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+    pub(crate) fn pixels(&self) -> impl Iterator<Item = (u32, u32)> + Clone + use<> {
         let Crop { x, y, width, height } = self.crop;
         (y..y + height).flat_map(move |py| (x..x + width).map(move |px| (px, py)))
     }

@@ -192,7 +192,7 @@ impl Scene {
     fn rendered_as(&self, mut other: Scene) -> Scene {
         (other.size, other.samples, other.max_bounces) = (self.size, self.samples, self.max_bounces);
         (other.seed, other.integrator, other.clamp) = (self.seed, self.integrator, self.clamp);
-        (other.noise, other.time) = (self.noise, self.time);
+        (other.noise, other.time, other.adaptive) = (self.noise, self.time, self.adaptive);
         (other.layers, other.backdrop, other.look) = (self.layers, self.backdrop, self.look);
         other
     }

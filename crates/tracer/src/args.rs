@@ -28,7 +28,7 @@ pub use inspect::{InspectArgs, InspectForm};
 pub use marks::{MarksArgs, MarksForm};
 pub use merge::MergeArgs;
 pub use preview::{PreviewArgs, TerminalName};
-pub use render::{Frames, IntegratorName, RenderArgs};
+pub use render::{AdaptiveName, Frames, IntegratorName, RenderArgs};
 pub use repro::ReproArgs;
 
 use crate::commands::{CompletedShell, Template};

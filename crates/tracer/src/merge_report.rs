@@ -114,7 +114,7 @@ impl MergeReport {
     ) -> Self {
         let counters = film.counters;
         let Crop { x, y, width, height } = film.crop();
-        let (samples_min, samples_max) = film.samples().into_inner();
+        let (samples_min, samples_max) = film.samples_of_pixels().into_inner();
         let [file, hash] = ["scene", "hash"].map(|name| note(head, name).to_owned());
         let mut rays = MergedRays {
             camera: counters.camera_rays,

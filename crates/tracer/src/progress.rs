@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
-use tracer_core::{Crop, FewNoisy, Film, FilmState, Observer, Progress};
+use tracer_core::{FewNoisy, Film, FilmState, Observer, Progress};
 
 /// Samples from which on a pixel's noise is more than chance.
 const TOLD_FROM: u32 = 64;
@@ -167,9 +167,7 @@ impl Observer for Watch<'_> {
     fn pass(&self, film: &Film) {
         let Some(goal) = self.goals.noise else { return };
         let times = (film.relative_noise() / goal).powf(2.0 / film.noise_rate());
-        let Crop { width, height, .. } = film.crop();
-        let done = f64::from(width) * f64::from(height) * f64::from(*film.samples().start());
-        self.for_noise.store((done * times) as u64, Ordering::Relaxed);
+        self.for_noise.store((film.camera_samples() as f64 * times) as u64, Ordering::Relaxed);
         self.tell_few(film, goal);
     }
 

@@ -86,6 +86,10 @@ pub struct PictureReport {
     pub samples_min: u32,
     /// Most samples of a pixel.
     pub samples_max: u32,
+    /// Samples of a pixel, the mean.
+    pub samples_mean: f64,
+    /// Whether quiet tiles have taken fewer samples than the others.
+    pub adaptive: bool,
     /// Of these, fewest samples of a pixel that came from a checkpoint.
     pub samples_resumed: u32,
     /// First sample index and the one after the last, where it is a part (`--part`); else null.

@@ -137,6 +137,16 @@ pub struct Item {
     pub quarter: u32,
     /// Sample index; while glint chains are traced, their index (`engine::glints`).
     pub sample: u32,
+    /// A bit for each of the tiles that take no sample at this index ([`tile_of`]): no camera ray is cast for their
+    /// pixels, which share nothing then.
+    pub resting: u8,
+}
+
+/// The number of a tile among those that a block may touch, by the lowest bits of its column and row: bits 8 and 9 of
+/// its pixels' numbers in Z-order.
+#[inline]
+pub fn tile_of(column: u32, row: u32) -> u32 {
+    column & 1 | (row & 1) << 1
 }
 
 impl Item {
@@ -245,7 +255,10 @@ mod tests {
     /// All items are in a run, whole blocks and parts of them alike.
     #[test]
     fn runs_are_of_one_block() {
-        let item = |x: i32, quarter: u32, sample: u32| Item { block: Block::straight([x, 1]), quarter, sample };
+        let item = |x: i32, quarter: u32, sample: u32| {
+            let block = Block::straight([x, 1]);
+            Item { block, quarter, sample, resting: 0 }
+        };
         let whole = (0..2).flat_map(|sample| (0..2).flat_map(move |x| (0..QUARTERS).map(move |q| item(x, q, sample))));
         let whole: Vec<_> = runs(&whole.collect::<Vec<_>>()).collect();
         assert_eq!(whole, [0..4, 4..8, 8..12, 12..16]);

@@ -114,6 +114,8 @@ pub struct Scene {
     pub clamp: Option<f32>,
     /// The relative noise at which rendering ends, unless the caller says otherwise.
     pub noise: Option<f64>,
+    /// Whether quiet tiles take fewer samples, unless the caller says otherwise.
+    pub adaptive: Option<bool>,
     /// Seconds after which rendering ends, unless the caller says otherwise.
     pub time: Option<f64>,
     /// What is kept of what camera rays hit first, unless the caller says otherwise.

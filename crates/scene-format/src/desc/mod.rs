@@ -79,7 +79,7 @@ pub use textures::{
 pub(crate) use textures::{MappingWords, Nested, PatternWords, is_color, is_texture};
 pub(crate) use transform::TransformWords;
 pub use transform::{Extent, Transform};
-pub use view::{Acceleration, Caustics, Image, Indirect, Integrator, Render, Reuse};
+pub use view::{Acceleration, Adaptive, Caustics, Image, Indirect, Integrator, Render, Reuse};
 
 use crate::diagnostic::{Source, Spanned};
 use crate::files::FileKind;

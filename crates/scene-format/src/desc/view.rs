@@ -50,8 +50,26 @@ scene_struct! {
         /// nothing else; first when all pixels have 16 samples, where something moves 16 or 64. What is rarer is
         /// missing in a picture that ends then, and in its noise. `None`: all samples.
         noise: Option<Spanned<f64>> = None => Rule::between("a relative error", 0.0, 1.0);
+        /// Whether parts of the picture that are quiet take fewer samples than those that are noisy: tiles of 16x16
+        /// pixels a half, a quarter or an eighth of them, from 64 samples per pixel on. It is unbiased: four pictures
+        /// of one sample per pixel, which are not shown, tell which, and where less than a fifth of the samples would
+        /// be saved all tiles take all. `samples` are those of the noisy ones then (docs/noise.md). Where something
+        /// moves while the shutter is open all take all.
+        adaptive: Adaptive = Adaptive::WithNoise;
         /// The rendering ends when the program has run so long. `samples` are the most. `None`: all samples.
         time: Option<Spanned<f64>> = None => Rule::length("a time").unit("in seconds");
+    }
+}
+
+scene_words! {
+    /// Whether quiet parts of a picture take fewer samples.
+    pub enum Adaptive, "choice of adaptive sampling" {
+        /// Where a `noise` is asked for that takes 128 samples or more.
+        WithNoise,
+        /// From 64 samples on.
+        Always,
+        /// All pixels take all samples.
+        Never,
     }
 }
 
@@ -163,6 +181,7 @@ impl Default for Render {
             indirect: Indirect::Paths,
             clamp: None,
             noise: None,
+            adaptive: Adaptive::WithNoise,
             time: None,
         }
     }

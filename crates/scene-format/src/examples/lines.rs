@@ -18,7 +18,7 @@ const LINES: [(&str, &str); 37] = [
     ),
     ("Image", "image: Image(width: 1280, height: 720)"),
     ("Render", "render: Render(samples: 256, max_bounces: 8, seed: 7, clamp: 50)"),
-    ("Render", "render: Render(noise: 0.02, time: 60)"),
+    ("Render", "render: Render(noise: 0.02, time: 60, adaptive: Never)"),
     ("Effects", "effects: Effects(exposure: 0.5, tone_map: Filmic)"),
     (
         "ThinLens",

@@ -417,8 +417,11 @@ pub(super) fn field_of_others(name: &str, def: &'static StructDef, syntax: Synta
         "time_limit" | "timeout" | "max_time" if has("max_bounces") => {
             "how long it may take is `time: 60` in seconds, or --time 60s on the command line"
         }
-        "noise_threshold" | "noise" | "adaptive" | "adaptive_threshold" | "error_threshold" if has("max_bounces") => {
+        "noise_threshold" | "adaptive_threshold" | "error_threshold" if has("max_bounces") => {
             "how noisy it may be is `noise: 0.02`, or --noise 2% on the command line"
+        }
+        "adaptive_sampling" | "use_adaptive_sampling" if has("max_bounces") => {
+            "that is `adaptive: Always` or `adaptive: Never`; it is on where a `noise` is asked for"
         }
         "gpu" | "device" | "tile_size" | "tiles" | "bucket_size" if has("max_bounces") => {
             "it is made by all of the processor's threads; how does not show in the picture: leave it out"

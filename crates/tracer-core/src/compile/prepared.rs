@@ -9,7 +9,7 @@ use super::{CompileError, Like, Objects, environment, light_groups};
 use crate::develop::Backdrop;
 use crate::scene::{LightGroups, backdrop, film_layers};
 use crate::texture::Texture;
-use scene_format::desc::{Acceleration, Caustics, Indirect, Integrator, Reuse};
+use scene_format::desc::{Acceleration, Adaptive, Caustics, Indirect, Integrator, Reuse};
 use scene_format::diagnostic::Span;
 use scene_format::{Diagnostic, Diagnostics, SceneDesc, codes};
 use std::sync::Arc;
@@ -129,6 +129,11 @@ impl Prepared {
             caustics: full && desc.render.caustics == Caustics::Photons,
             clamp: desc.render.clamp.as_ref().map(|limit| limit.value as f32),
             noise: desc.render.noise.as_ref().map(|goal| goal.value),
+            adaptive: match desc.render.adaptive {
+                Adaptive::WithNoise => None,
+                Adaptive::Always => Some(true),
+                Adaptive::Never => Some(false),
+            },
             time: desc.render.time.as_ref().map(|seconds| seconds.value),
             layers: film_layers(&desc.output),
             backdrop: backdrop(&desc.output) != Backdrop::Background,

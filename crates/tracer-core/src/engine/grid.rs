@@ -71,7 +71,7 @@ impl Grid {
         let mut pixels = Pixels::new(BLOCK_PIXELS);
         let at = pixel.map(|x| x as f32);
         (0..self.len()).filter_map(|place| self.block(place, self.cut(sample))).find_map(|block| {
-            pixels.find(&(0..QUARTERS).map(|quarter| Item { block, quarter, sample }).collect::<Vec<_>>());
+            pixels.find(&(0..QUARTERS).map(|quarter| Item { block, quarter, sample, resting: 0 }).collect::<Vec<_>>());
             let slot = pixels.x.iter().zip(&pixels.y).position(|(&x, &y)| [x, y] == at)?;
             Some((slot / ITEM_PIXELS) as u32)
         })
@@ -85,7 +85,7 @@ mod tests {
 
     /// Where the pixels of a block lie.
     fn pixels(block: Block) -> Vec<[i32; 2]> {
-        let items: Vec<Item> = (0..QUARTERS).map(|quarter| Item { block, quarter, sample: 0 }).collect();
+        let items: Vec<Item> = (0..QUARTERS).map(|quarter| Item { block, quarter, sample: 0, resting: 0 }).collect();
         let mut pixels = Pixels::new(BLOCK_PIXELS);
         pixels.find(&items);
         pixels.x.iter().zip(&pixels.y).map(|(&x, &y)| [x as i32, y as i32]).collect()

@@ -4,6 +4,7 @@
 //! independent and a pixel's sum is exact ([`crate::film`]), so threads take batches in any order and the film is the
 //! same.
 
+mod adaptive;
 mod counting;
 mod direct;
 mod grid;
@@ -27,6 +28,7 @@ pub use options::RenderOptions;
 
 use crate::film::{Crop, Film, FilmGroups, Keeper, Plan, Unfinished};
 use crate::scene::Scene;
+use adaptive::Quiet;
 use grid::Grid;
 use lighting::Lighting;
 use passes::{Painter, Passes, SAMPLES, is_looked_at};
@@ -92,6 +94,7 @@ pub fn resume(scene: &Scene, options: &RenderOptions, film: Film, observer: &dyn
     fits("set of layers", film.has_layers_of(&fresh))?;
     fits("choice of halves", film.has_halves() == fresh.has_halves())?;
     fits("range of brightness", film.has_unit_of(&fresh))?;
+    fits("choice of adaptive sampling", adaptive::fits(scene, options, &film))?;
     let samples = samples(scene, options);
     let held = film.unfinished.as_ref().map_or(film.whole, |rest| rest.end);
     if samples < held {
@@ -182,7 +185,10 @@ fn go_on(scene: &Scene, options: &RenderOptions, mut film: Film, observer: &dyn 
     take_up(&mut film, &mut painter)?;
     let passes = Passes::new(film.whole, samples, 16 * SAMPLES).planned(plan);
     let mut passes = passes.looking(work.goals.noise.is_some());
+    painter.keep_adaptive(&film, &mut passes);
     while !work.goals.are_met(&film)
+        && film.whole < samples
+        && work.adapt(scene, &mut film, &mut painter, &mut passes)
         && let Some(pass) = passes.next(film.unfinished.as_ref().map(|rest| rest.end))
     {
         let started = Instant::now();
@@ -252,6 +258,21 @@ impl Work<'_> {
         true
     }
 
+    /// Decides which tiles rest, where it is time for that; whether the rendering goes on.
+    fn adapt(&self, scene: &Scene, film: &mut Film, painter: &mut Painter<'_>, passes: &mut Passes) -> bool {
+        if !adaptive::is_due(scene, self.options, film, self.goals.noise) {
+            return true;
+        }
+        let samples_done = painter.done.load(Ordering::Relaxed);
+        let now = Progress { samples_done, samples_total: painter.samples_total };
+        let Some(adaptive) = adaptive::plan(scene, self.options, film, Quiet::new(self.observer, now)) else {
+            return false;
+        };
+        film.keep_adaptive(Some(adaptive));
+        painter.keep_adaptive(film, passes);
+        true
+    }
+
     /// Gives the film as it is to whoever wants to keep it.
     fn offer_state(&mut self, film: &Film) {
         if film.whole < self.samples && self.observer.wants_state() {
@@ -309,6 +330,7 @@ fn painter<'a>(
         mattes: film.mattes(),
         lamps: film.place_for_halves(Layer::Emission).is_some(),
         albedo: film.place_for_halves(Layer::DenoisingAlbedo),
+        adaptive: None,
         until: None,
         light_until: u32::MAX,
         done: AtomicU64::new(if film.is_begun() { film.camera_samples() } else { 0 }),

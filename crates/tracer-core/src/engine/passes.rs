@@ -7,17 +7,18 @@ use super::observer::{Observer, Progress};
 use super::technique::{OnFilm, Technique};
 use super::trace::trace;
 use super::watcher::Unwatched;
-use crate::film::{Cells, Film, Keeper, MattesKept, Piece, Plan, Samples, Tile, Unfinished, half_end, half_of};
+use crate::film::{Adaptive, Cells, Film, Keeper, MattesKept, Piece, Plan, Samples, Tile, Unfinished};
+use crate::film::{half_end, run_end};
 use std::ops::Range;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use tracer_kernels::engine::batch::{Batch, ITEMS, PATHS};
 use tracer_kernels::engine::pass::Pass;
 use tracer_kernels::engine::pool::Pool;
 use tracer_kernels::layers::{LayerSamples, LayerSet};
 use tracer_kernels::report::Stage;
-use tracer_kernels::sampling::blocks::{Item, QUARTERS, runs, slots_of};
+use tracer_kernels::sampling::blocks::{Block, Item, QUARTERS, runs, slots_of};
 
 /// Samples of a block that fill a batch.
 pub const SAMPLES: u32 = ITEMS as u32 / QUARTERS;
@@ -32,6 +33,8 @@ pub struct Passes {
     last: u32,
     looks: bool,
     plan: Option<Plan>,
+    /// None goes over an index at which tiles may begin or end to rest.
+    pub rests: bool,
 }
 
 /// Samples per pixel at which a noise goal is looked at first: with fewer, what is rare has not been found, and does
@@ -56,7 +59,7 @@ pub fn is_looked_at(samples: u32) -> bool {
 impl Passes {
     /// From a sample index on.
     pub fn new(next: u32, samples: u32, longest: u32) -> Self {
-        Passes { next, samples, longest, last: 1, looks: false, plan: None }
+        Passes { next, samples, longest, last: 1, looks: false, plan: None, rests: false }
     }
 
     /// Whether none goes over a number of samples at which a noise goal is looked at.
@@ -75,9 +78,11 @@ impl Passes {
         let of_guide = start.checked_next_power_of_two().map_or(u32::MAX, |next| next.max(1) - start);
         let of_guide = if of_guide == 0 { start } else { of_guide };
         let of_look = if self.looks { next_look(start) - start } else { u32::MAX };
+        let of_rest = if self.rests { run_end(start) - start } else { u32::MAX };
         let of_plan = self.plan.map_or(u32::MAX, |plan| plan.whole.saturating_sub(start));
         let end = end.or(self.plan.filter(|plan| plan.whole == start).map(|plan| plan.end));
-        let rest = self.samples.saturating_sub(start).min(of_plan).min(self.longest).min(of_guide).min(of_look);
+        let rest =
+            self.samples.saturating_sub(start).min(of_plan).min(self.longest).min(of_guide).min(of_look).min(of_rest);
         // A pass that is no multiple of a batch's items but longer would leave lanes empty: split off what fits.
         let whole = match rest {
             0 => 0,
@@ -116,6 +121,12 @@ impl Deal {
             firsts.push(firsts[firsts.len() - 1] + places.len().div_ceil(per_batch as usize));
         }
         Deal { pieces, firsts, per_batch, next: AtomicUsize::new(0), returned: Mutex::default() }
+    }
+
+    /// Each of them a batch.
+    fn of_batches(pieces: Vec<Piece>) -> Self {
+        let firsts = (0..=pieces.len()).collect();
+        Deal { pieces, firsts, per_batch: u32::MAX, next: AtomicUsize::new(0), returned: Mutex::default() }
     }
 
     /// The next batch.
@@ -176,6 +187,8 @@ pub struct Painter<'a> {
     pub lamps: bool,
     /// Where the layer `denoising_albedo` stands among the sums of samples, where halves are kept.
     pub albedo: Option<usize>,
+    /// Which tiles rest, where that was decided.
+    pub adaptive: Option<Arc<Adaptive>>,
     /// When the rendering ends at the latest.
     pub until: Option<Instant>,
     /// The sample index whose light paths are not wanted any more.
@@ -194,6 +207,15 @@ impl Painter<'_> {
             .iter_mut()
             .enumerate()
             .flat_map(|(k, lighting)| lighting.techniques.iter_mut().map(move |technique| (k, technique)))
+    }
+
+    /// From here on tiles rest as the film's do.
+    pub fn keep_adaptive(&mut self, film: &Film, passes: &mut Passes) {
+        self.adaptive = film.adaptive().filter(|_| film.is_adaptive()).cloned();
+        passes.rests = self.adaptive.is_some();
+        if passes.rests {
+            self.samples_total = film.samples_until(passes.samples);
+        }
     }
 
     /// Whether pixels share, in any lighting.
@@ -237,7 +259,10 @@ impl Painter<'_> {
         // stay in the cache.
         let at_once = (samples.end - samples.start).min(SAMPLES);
         let items = if self.quarter.is_some() { ITEMS as u32 } else { SAMPLES };
-        let deal = Deal::new(pieces, items / at_once);
+        let deal = match &self.adaptive {
+            Some(adaptive) => Deal::of_batches(adaptive.batches(&self.grid, pieces, items / at_once)),
+            None => Deal::new(pieces, items / at_once),
+        };
         let mut light = film.light_samples;
         let cells = Cells::new(film, keeper);
         std::thread::scope(|scope| {
@@ -268,7 +293,12 @@ impl Painter<'_> {
         });
         drop(cells);
         film.light_samples = light;
-        let pieces = joined(deal.left(), later);
+        let mut left = deal.left();
+        if self.adaptive.is_some() {
+            left.sort_unstable_by_key(|piece| (piece.samples.start, piece.places.start));
+            left = joined(Vec::new(), left);
+        }
+        let pieces = joined(left, later);
         let brings = self.quarter.is_none() && self.bringers().next().is_some();
         let is_whole = pieces.is_empty() && (light >= samples.end.min(self.light_until) || !brings);
         (!is_whole).then_some(Unfinished { end: samples.end, pieces })
@@ -287,11 +317,12 @@ impl Painter<'_> {
         let mut next = samples.start;
         let Some(at_once) = self.bringers().map(|(.., at_once)| at_once).min() else { return next };
         while next < samples.end && !self.stopped.load(Ordering::Relaxed) {
-            // Of one half of the samples only.
-            let now = next..samples.end.min(next.saturating_add(at_once)).min(half_end(next));
+            // Of one half of the samples only, and taken by the same tiles.
+            let end = if self.adaptive.is_some() { run_end(next) } else { half_end(next) };
+            let now = next..samples.end.min(next.saturating_add(at_once)).min(end);
             for (lighting, technique, _) in self.bringers() {
-                let (half, group) = (half_of(next), lighting.group);
-                let film = OnFilm { cells, limit: self.limit, half, group, quarter: self.quarter };
+                let film =
+                    OnFilm { cells, limit: self.limit, sample: next, group: lighting.group, quarter: self.quarter };
                 technique.bring(lighting.engine, lighting.pass(plain), now.clone(), film, self.pool);
             }
             next = now.end;
@@ -350,9 +381,15 @@ impl Painter<'_> {
         for place in places.clone() {
             for sample in samples.clone() {
                 let Some(block) = self.grid.block((place - first) as usize, self.grid.cut(sample)) else { continue };
-                batch.items.extend(quarters.clone().map(|quarter| Item { block, quarter, sample }));
+                let Some(resting) = self.resting(block, sample) else { continue };
+                batch.items.extend(quarters.clone().map(|quarter| Item { block, quarter, sample, resting }));
             }
         }
+    }
+
+    /// Which of a block's tiles take no sample at this index; `None` where none takes one.
+    fn resting(&self, block: Block, sample: u32) -> Option<u8> {
+        self.adaptive.as_ref().map_or(Some(0), |adaptive| adaptive.resting(block, sample))
     }
 
     /// Which pieces are of this quarter and before the last place, and which are left for later.
@@ -380,8 +417,9 @@ impl Painter<'_> {
         let mut added = 0;
         for run in runs(&batch.items) {
             let slots = slots_of(&run);
-            let half = half_of(batch.items[run.start].sample);
-            cells.each(&batch.pixels, slots.clone(), |tile, common| {
+            let sample = batch.items[run.start].sample;
+            cells.each(&batch.pixels, (slots.clone(), sample), |tile, common| {
+                let half = tile.half_of(sample);
                 if totals.is_empty() {
                     let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
                     let left_out = tile.add(samples, common);
@@ -456,8 +494,9 @@ type Totals = Vec<[i128; 3]>;
 
 /// Adds what a group, of so many, has brought to the samples of a batch.
 fn add_group([group, count]: [usize; 2], cells: &Cells<'_>, totals: &mut Totals, batch: &mut Batch) {
-    for slots in runs(&batch.items).map(|run| slots_of(&run)) {
-        cells.each(&batch.pixels, slots.clone(), |tile, common| {
+    for run in runs(&batch.items) {
+        let (slots, sample) = (slots_of(&run), batch.items[run.start].sample);
+        cells.each(&batch.pixels, (slots.clone(), sample), |tile, common| {
             let samples = batch.radiance.each_ref().map(|channel| &channel[slots.clone()]);
             let left_out = tile.add_group((group, count), samples, common, &mut totals[slots.clone()]);
             batch.counters.dropped += left_out.dropped;
@@ -470,8 +509,9 @@ fn add_group([group, count]: [usize; 2], cells: &Cells<'_>, totals: &mut Totals,
 /// asked where none is wanted.
 fn clamp_samples(limit: f64, cells: &Cells<'_>, batch: &mut Batch) {
     let start = Instant::now();
-    for slots in runs(&batch.items).map(|run| slots_of(&run)) {
-        cells.each(&batch.pixels, slots.clone(), |tile, common| {
+    for run in runs(&batch.items) {
+        let (slots, sample) = (slots_of(&run), batch.items[run.start].sample);
+        cells.each(&batch.pixels, (slots.clone(), sample), |tile, common| {
             let samples = batch.radiance.each_mut().map(|channel| &mut channel[slots.clone()]);
             tile.clamp(limit, samples, common);
         });

@@ -51,8 +51,9 @@ pub struct OnFilm<'a, 'b> {
     /// The most that the largest channel of what one light path brings counts, where samples are clamped; in the film's
     /// unit.
     pub limit: Option<f64>,
-    /// The half of the samples that it comes with ([`crate::film`]).
-    pub half: usize,
+    /// The first sample index that it comes with: the others have the same half and are taken by the same tiles
+    /// ([`crate::film`]).
+    pub sample: u32,
     /// The light group that it is of, and how many there are.
     pub group: Option<[usize; 2]>,
     /// The quarter of its sample index's light that comes at this moment, where something moves; else it is all of it.

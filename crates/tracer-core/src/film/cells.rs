@@ -73,13 +73,13 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Adds what a light path of a half of the samples, and of a group of so many, brings to a pixel, if it is one of
-    /// the crop.
+    /// Adds what a light path of a sample index, and of a group of so many, brings to a pixel, if it is one of the crop
+    /// and takes that index.
     pub fn splat(
         &self,
         [x, y]: [i32; 2],
         brings: [f32; 3],
-        (limit, half): (Option<f64>, usize),
+        (limit, sample): (Option<f64>, u32),
         group: Option<[usize; 2]>,
     ) {
         let Crop { x: left, y: top, width, height } = self.crop;
@@ -90,8 +90,11 @@ impl<'a> Cells<'a> {
         let place = (y / TILE - self.first_tile[1]) * self.columns + x / TILE - self.first_tile[0];
         let pixel = z_order(x % TILE, y % TILE) as usize;
         let tile = &mut self.lock(place as usize).tile;
+        if !tile.takes(sample) {
+            return;
+        }
         let Some(added) = tile.splat(pixel, brings, limit) else { return };
-        if half == 1 {
+        if tile.half_of(sample) == 1 {
             tile.splat_half(pixel, added);
         }
         if let Some([group, count]) = group {
@@ -99,9 +102,14 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Does a work for each tile that has pixels in common with the block, or part of one, that has these slots; what
-    /// it is given tells them: slot counted from the first, and place in the tile.
-    pub fn each(&self, pixels: &Pixels, slots: Range<usize>, mut work: impl FnMut(&mut Tile, &[[u8; 2]])) {
+    /// Does a work for each tile that takes a sample index and has pixels in common with the block, or part of one, that
+    /// has these slots; what it is given tells them: slot counted from the first, and place in the tile.
+    pub fn each(
+        &self,
+        pixels: &Pixels,
+        (slots, sample): (Range<usize>, u32),
+        mut work: impl FnMut(&mut Tile, &[[u8; 2]]),
+    ) {
         let Crop { x: left, y: top, width, height } = self.crop;
         // By the lowest bits of the tile's column and row: a block lies within two by two tiles.
         let (mut common, mut lens, mut places) = ([[[0; 2]; BLOCK_PIXELS]; 4], [0; 4], [0; 4]);
@@ -120,7 +128,10 @@ impl<'a> Cells<'a> {
         }
         for tile in 0..4 {
             if lens[tile] > 0 {
-                work(self.lock(places[tile] as usize).tile, &common[tile][..lens[tile]]);
+                let cell = &mut self.lock(places[tile] as usize);
+                if cell.tile.takes(sample) {
+                    work(cell.tile, &common[tile][..lens[tile]]);
+                }
             }
         }
     }
@@ -148,11 +159,11 @@ mod tests {
             // Behind another block.
             let items = [Block::default(), block]
                 .into_iter()
-                .flat_map(|block| (0..QUARTERS).map(move |quarter| Item { block, quarter, sample: 0 }));
+                .flat_map(|block| (0..QUARTERS).map(move |quarter| Item { block, quarter, sample: 0, resting: 0 }));
             pixels.find(&items.collect::<Vec<_>>());
             let at = |slot: usize| [pixels.x[slot] as i64, pixels.y[slot] as i64];
             let mut met = 0;
-            Cells::new(&mut film, None).each(&pixels, 256..512, |tile, common| {
+            Cells::new(&mut film, None).each(&pixels, (256..512, 0), |tile, common| {
                 met += common.len();
                 for &[k, place] in common {
                     let [x, y] = at(256 + usize::from(k)).map(|x| x as u32);

@@ -25,7 +25,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 /// No text begins so, and what changes the ends of lines breaks it.
 pub(super) const MAGIC: [u8; 8] = *b"\x89FILM\r\n\x1a";
 /// The version of the format.
-pub(super) const FORMAT: u32 = 12;
+pub(super) const FORMAT: u32 = 13;
 /// No head is longer.
 const LONGEST_HEAD: u32 = 1 << 26;
 
@@ -197,6 +197,7 @@ impl<R: Read> SavedFilm<R> {
         (film.reuse, film.caustics, film.layers, film.halves) = (head.reuse, head.caustics, layers, head.halves);
         (film.backdrop, film.mattes, film.groups) = (head.backdrop, head.mattes, head.groups);
         (film.moments, film.paper) = (head.moments, head.paper);
+        film.keep_adaptive(head.adaptive);
         Ok(film)
     }
 

@@ -257,7 +257,7 @@ impl Film {
     pub fn radiance_of_group(&self, group: usize, x: u32, y: u32) -> [f64; 3] {
         let (tile, pixel) = self.place(x, y);
         let Some(of) = tile.groups.as_ref().and_then(|groups| groups.0.get(group)) else { return [0.0; 3] };
-        self.mean(&of.sums, of.splats.as_deref(), pixel, tile.samples[pixel])
+        self.mean(tile, (&of.sums, of.splats.as_deref()), pixel)
     }
 
     /// Whether the groups' sums are the picture's, as whole numbers: so they are wherever groups are kept.

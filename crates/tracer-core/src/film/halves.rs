@@ -7,6 +7,7 @@
 //! So both have as many at every power of two, and each run of a half is a net of the sampler's: with every other index
 //! one half would have the left of each pixel, the other the right.
 
+use super::adaptive::second_taken;
 use super::exact::{LEAST, Sums, fixed};
 use super::layers::{is_hit, within};
 use super::pack::{pack, unpack};
@@ -46,7 +47,7 @@ pub(crate) fn half_end(sample: u32) -> u32 {
 }
 
 /// How many of these indices are of the second half.
-fn second_of(samples: Range<u32>) -> u32 {
+pub(super) fn second_of(samples: Range<u32>) -> u32 {
     let below = |end: u32| match end.checked_ilog2() {
         Some(power) if power > 0 => (1 << (power - 1)) + end.saturating_sub(3 << (power - 1)),
         _ => 0,
@@ -274,9 +275,10 @@ impl Film {
         // many, and what was merged does not know its indices.
         let light = match &self.unfinished {
             Some(_) => {
-                let second = f64::from(second_of(self.first()..self.light_samples.max(self.first())));
+                let range = self.first()..self.light_samples.max(self.first());
+                let second = f64::from(second_taken(tile.rest, range));
                 let second = second + if half_of(self.light_samples) == 1 { self.light_of_quarters() } else { 0.0 };
-                [self.light_count() - second, second]
+                [self.light_of(tile) - second, second]
             }
             None => samples.map(f64::from),
         };

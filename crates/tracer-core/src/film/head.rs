@@ -3,8 +3,12 @@
 use super::file::{FORMAT, FilmError, MAGIC, Note, PROGRAM};
 use super::layers::SavedLayer;
 use super::mattes::longest_record;
-use super::{Crop, Film, FilmGroups, FilmLayer, MattesKept, Octave, Part, Piece, TILE, Tile, TileGroups, Unfinished};
+use super::{
+    Adaptive, Crop, FROM, Film, FilmGroups, FilmLayer, MattesKept, Octave, Part, Piece, TILE, Tile, TileGroups,
+    Unfinished,
+};
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 use tracer_kernels::layers::Kept;
 use tracer_kernels::report::{Costs, Counters};
 use tracer_kernels::sampling::blocks::QUARTERS;
@@ -48,13 +52,17 @@ pub struct FilmHead {
     pub(super) paper: f64,
     pub(super) mattes: MattesKept,
     pub(super) groups: FilmGroups,
+    pub(super) adaptive: Option<Arc<Adaptive>>,
 }
 
 impl FilmHead {
     /// Of a film, with what is to be told beside it.
     pub(super) fn of(film: &Film) -> Self {
         // Of a pass that was ended early somebody wants to know how far it came.
-        let most = film.unfinished.as_ref().map_or(film.whole, |_| film.first().saturating_add(*film.samples().end()));
+        let most = film
+            .unfinished
+            .as_ref()
+            .map_or(film.whole, |_| film.first().saturating_add(*film.samples_of_pixels().end()));
         FilmHead {
             program: PROGRAM.to_owned(),
             notes: Vec::new(),
@@ -79,6 +87,7 @@ impl FilmHead {
             paper: film.paper,
             mattes: film.mattes,
             groups: film.groups.clone(),
+            adaptive: film.adaptive.clone(),
         }
     }
 
@@ -121,6 +130,9 @@ impl FilmHead {
         }
         out.extend(self.groups.numbers().into_iter().flat_map(u32::to_le_bytes));
         self.groups.names.iter().for_each(|name| text(name, &mut out));
+        let rests = self.adaptive.as_ref().map_or(Vec::new(), |adaptive| adaptive.to_bytes());
+        out.extend((rests.len() as u32).to_le_bytes());
+        out.extend(rests);
         let mut head = MAGIC.to_vec();
         head.extend([FORMAT, out.len() as u32].into_iter().flat_map(u32::to_le_bytes));
         head.extend(out);
@@ -172,6 +184,10 @@ impl FilmHead {
         let (of_background, count) = (number(from)?, number(from)?);
         let names = (0..count).map(|_| text(from)).collect::<Option<Vec<_>>>()?;
         let groups = FilmGroups::from_number(of_background, names);
+        let adaptive = match number(from)? {
+            0 => None,
+            length => Some(Arc::new(Adaptive::from_bytes(size, from.split_off(..length as usize)?)?)),
+        };
         let head = FilmHead {
             program,
             notes,
@@ -196,6 +212,7 @@ impl FilmHead {
             paper,
             mattes,
             groups,
+            adaptive,
         };
         (from.is_empty() && head.is_sound()).then_some(head)
     }
@@ -227,6 +244,7 @@ impl FilmHead {
             && matches!(self.moments, 0 | 1 | QUARTERS)
             && self.samples.end() >= self.samples.start()
             && *self.samples.end() <= end
+            && (self.adaptive.is_none() || end >= FROM && self.moments == 0)
             && self.light_samples <= end
             && (self.octave.is_sound() && self.octave.samples <= whole)
             && self.part.is_none_or(|_| self.octave == Octave::default())

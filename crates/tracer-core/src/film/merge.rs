@@ -7,7 +7,7 @@
 use super::file::PROGRAM;
 use super::layers::SavedLayer;
 use super::record::read_tile;
-use super::{Crop, Film, FilmError, FilmHead, Part, SavedFilm, Sums, TILE, Tile};
+use super::{Crop, FROM, Film, FilmError, FilmHead, Part, SavedFilm, Sums, TILE, Tile};
 use bytemuck::Zeroable;
 use bytemuck::allocation::try_zeroed_vec;
 use rayon::prelude::*;
@@ -71,6 +71,9 @@ pub enum MergeError {
     /// Rows would have the light of different numbers of samples, which one film cannot hold.
     #[error("with what is missing, rows differ in their samples, and light paths fall on them: all rows need the same")]
     Uneven,
+    /// Tiles rest, and with samples that are missing nobody knows how many light paths count for each.
+    #[error("samples are missing, parts of the picture rest, and light paths fall on them: all samples are needed")]
+    Resting,
     /// A part cannot be read.
     #[error("part {part}: {error}")]
     Part {
@@ -133,8 +136,17 @@ impl FilmHead {
             ("reuse", self.reuse == other.reuse),
             ("caustics", self.caustics == other.caustics),
             ("choice of halves", self.halves == other.halves),
+            ("plan of adaptive sampling", self.rests_as(other)),
         ];
         same.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
+    }
+}
+
+impl FilmHead {
+    /// Whether tiles rest in both alike, as far as they have samples at which any may.
+    fn rests_as(&self, other: &FilmHead) -> bool {
+        let is_told = |head: &FilmHead| head.adaptive.is_some() || head.part().end > FROM;
+        self.adaptive == other.adaptive || !is_told(self) || !is_told(other)
     }
 }
 
@@ -265,16 +277,23 @@ impl Film {
         mut open: impl FnMut(usize) -> Result<SavedFilm<R>, FilmError>,
         allowed: Gaps,
     ) -> Result<Film, MergeError> {
-        let mut is_whole = true;
+        let (mut is_whole, mut lacks_samples) = (true, false);
         for fault in faults(heads, allowed) {
             match fault {
-                MergeError::Missing(_) if allowed == Gaps::Allowed => is_whole = false,
+                MergeError::Missing(gaps) if allowed == Gaps::Allowed => {
+                    is_whole = false;
+                    lacks_samples = gaps.iter().any(|gap| gap.samples != (0..heads[0].part().of_samples));
+                }
                 fault => return Err(fault),
             }
         }
         let of = made_of(heads, allowed).ok_or(MergeError::Empty)?;
         let mut film = empty(&heads[0], of.crop)?;
         let light = light_samples(heads).ok_or(MergeError::Uneven)?;
+        film.keep_adaptive(heads.iter().find_map(|head| head.adaptive.clone()));
+        if lacks_samples && light > 0 && film.is_adaptive() {
+            return Err(MergeError::Resting);
+        }
         for (part, head) in heads.iter().enumerate() {
             let added = open(part).and_then(|saved| film.add_part(head, saved));
             added.map_err(|error| MergeError::Part { part, error })?;

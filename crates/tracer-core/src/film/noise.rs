@@ -28,6 +28,7 @@
 //! told as less where pixels err together since they see the same moments: what is there for a thirtieth of a time all
 //! may miss.
 
+use super::adaptive::taken;
 use super::{Film, PIXELS, Tile, luminance};
 use rayon::prelude::*;
 
@@ -85,14 +86,13 @@ impl Octave {
     }
 
     /// What the square of the difference between the first h samples and k more is to be multiplied by to be the
-    /// variance of all of them; `None` where they are too few to tell.
-    fn of_more(&self, more: u32, rate: f64) -> Option<f64> {
-        let (h, k) = (f64::from(self.samples), f64::from(more));
+    /// variance of all of them; `None` where the latter are too few to tell.
+    fn of_more([first, more]: [u32; 2], rate: f64) -> Option<f64> {
+        let (h, k) = (f64::from(first), f64::from(more));
         let n = h + k;
         let (of_first, of_more) = (libm::pow(h, -rate), libm::pow(k, -rate));
         let independent = (h * h * of_first + k * k * of_more) / (n * n) / (of_first + of_more);
-        (4 * u64::from(more) >= self.samples.into())
-            .then(|| independent * libm::pow(4.0 * Self::of_difference(rate), k / h))
+        (4 * u64::from(more) >= first.into()).then(|| independent * libm::pow(4.0 * Self::of_difference(rate), k / h))
     }
 
     /// Whether it is one that a file can hold.
@@ -143,14 +143,19 @@ impl Film {
             return;
         }
         let Octave { samples: before, differences: [last, half, _], .. } = self.octave;
-        let (light, paper) = (self.light_count(), self.paper);
+        let (light, light_samples, paper) = (self.light_count(), self.light_samples, self.paper);
         let put_down = |tile: &mut Tile| {
             let mut borne = Borne::default();
+            let light = if tile.rest == 0 { light } else { taken(tile.rest, light_samples).into() };
+            let [first, all] = [samples / 2, samples].map(|end| f64::from(taken(tile.rest, end)));
+            // Of tiles that rest the second is the shorter one, where there were more samples before: as one of as many
+            // would have told it.
+            let unequal = first / (all - first);
             for pixel in 0..PIXELS {
                 let mean = tile.luminance(pixel, light, paper);
                 // Of the first half and of the second.
                 let difference = mean - f64::from(tile.octave[pixel]);
-                borne.add(4.0 * difference * difference);
+                borne.add(4.0 * difference * difference * unequal);
                 tile.octave[pixel] = shortened(mean as f32);
             }
             borne
@@ -185,7 +190,7 @@ impl Film {
         let of_samples = ((tile.squares.of(pixel) / n - mean * mean) / (n - 1.0)).max(0.0);
         // Light paths come one by one: the variance of such a sum is about the sum of squares.
         let splats = tile.splats.as_ref().map_or(0.0, |splats| splats.squares.of(pixel));
-        let passes = if self.light_count() > 0.0 { self.light_count() } else { 1.0 };
+        let passes = Some(self.light_of(tile)).filter(|&passes| passes > 0.0).unwrap_or(1.0);
         let of_light = splats / (passes * passes);
         (of_samples + of_light) * self.unit * self.unit
     }
@@ -200,7 +205,7 @@ impl Film {
 
     /// Mean luminance of a pixel in the sums' own unit; where the background is kept by itself, without it, over what
     /// the picture is laid over.
-    fn mean_luminance(&self, x: u32, y: u32) -> f64 {
+    pub(crate) fn mean_luminance(&self, x: u32, y: u32) -> f64 {
         let light = (luminance(self.radiance(x, y)) - luminance(self.background(x, y))) / self.unit;
         if self.paper > 0.0 { light + self.paper * (1.0 - self.alpha(x, y)) } else { light }
     }
@@ -287,15 +292,18 @@ impl Film {
         if differences[0] <= 0.0 || self.has_gaps {
             return None;
         }
-        let (rate, light) = (self.octave.rate(), self.light_count());
+        let rate = self.octave.rate();
         let of_octave = differences[0] * Octave::of_difference(rate);
-        let (mut last, mut factor) = (samples, None);
+        // Samples of a pixel when the octave ended, and those after.
+        let (mut last, mut factor) = ([samples, 0], None);
         let (mut borne, mut by_octave) = (Borne::default(), 0.0);
         for (x, y) in self.pixels() {
             let (tile, pixel) = self.place(x, y);
-            let n = tile.samples[pixel];
-            if n != last {
-                (last, factor) = (n, self.octave.of_more(n.saturating_sub(samples), rate));
+            let (n, light) = (tile.samples[pixel], self.light_of(tile));
+            let samples = taken(tile.rest, samples);
+            let now = [samples, n.saturating_sub(samples)];
+            if now != last {
+                (last, factor) = (now, Octave::of_more(now, rate));
             }
             // Light paths of other indices than the samples': of a pass that was ended early.
             let is_apart = tile.splats.is_some() && light != f64::from(n);
@@ -354,9 +362,9 @@ mod tests {
             let seen = octave.differences[0] * Octave::of_difference(rate);
             assert!((seen / variance(64) - 1.0).abs() < 1e-12, "{rate}: {seen}");
             // At 128 samples, of which the second half is the next net.
-            let all = octave.of_more(64, rate).map(|factor| factor * difference(128));
+            let all = Octave::of_more([64, 64], rate).map(|factor| factor * difference(128));
             assert!(all.is_some_and(|all| (all / variance(128) - 1.0).abs() < 1e-12), "{rate}: {all:?}");
-            assert!(octave.of_more(15, rate).is_none() && octave.of_more(16, rate).is_some());
+            assert!(Octave::of_more([64, 15], rate).is_none() && Octave::of_more([64, 16], rate).is_some());
         }
         // What has not fallen, or is not known.
         let rate = |differences| Octave { samples: 8, differences, pixels: 64.0 }.rate();

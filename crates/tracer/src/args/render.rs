@@ -5,7 +5,7 @@ use super::{
 };
 use crate::write::Bits;
 use clap::{Args, ValueEnum};
-use scene_format::desc::Integrator;
+use scene_format::desc::{Adaptive, Integrator};
 use std::path::PathBuf;
 use std::time::Duration;
 use tracer_core::{Crop, Layer, Plan};
@@ -49,6 +49,10 @@ pub struct RenderArgs {
     /// End when the noise is no more than this: 0.01, 1%
     #[arg(long, value_name = "SHARE", value_parser = noise)]
     pub noise: Option<f64>,
+    /// Whether quiet parts take fewer samples: with_noise, always or never
+    #[arg(long, value_enum, value_name = "WHEN", hide_possible_values = true, hide_short_help = true)]
+    #[arg(help = "Fewer samples where it is quiet: with_noise, always or never")]
+    pub adaptive: Option<AdaptiveName>,
     /// End after this time, all written: 60s, 5m, 1h
     #[arg(long, value_name = "TIME", value_parser = interval)]
     pub time: Option<Duration>,
@@ -114,6 +118,38 @@ pub struct RenderArgs {
     /// Print errors only
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
+}
+
+/// When quiet parts of the picture take fewer samples, in place of the scene's `render.adaptive`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum AdaptiveName {
+    /// Where a noise is asked for.
+    #[value(name = "with_noise", alias = "with-noise")]
+    WithNoise,
+    /// From 64 samples on.
+    Always,
+    /// Nowhere.
+    Never,
+}
+
+impl AdaptiveName {
+    /// The word of the scene that it stands for.
+    pub fn word(self) -> Adaptive {
+        match self {
+            AdaptiveName::WithNoise => Adaptive::WithNoise,
+            AdaptiveName::Always => Adaptive::Always,
+            AdaptiveName::Never => Adaptive::Never,
+        }
+    }
+
+    /// As it is written on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            AdaptiveName::WithNoise => "with_noise",
+            AdaptiveName::Always => "always",
+            AdaptiveName::Never => "never",
+        }
+    }
 }
 
 /// What is rendered, in place of the scene's `render.integrator`.

@@ -5,7 +5,7 @@ use super::picture::{backdrop_told, mattes_told};
 use super::{picture_notes, told};
 use crate::failure::Failure;
 use crate::write::is_one_file;
-use scene_format::desc::{Acceleration, ToneMap};
+use scene_format::desc::{Acceleration, Adaptive, ToneMap};
 use scene_format::{SceneDesc, hash_hex};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -79,7 +79,7 @@ fn hash_of_film(desc: &mut SceneDesc) -> String {
     // The scene is what it is in this frame and for this camera, whatever others there are.
     let (animation, cameras) = (take(&mut desc.animation), take(&mut desc.cameras));
     desc.render.samples = 1.into();
-    (desc.render.noise, desc.render.time) = (None, None);
+    (desc.render.noise, desc.render.time, desc.render.adaptive) = (None, None, Adaptive::WithNoise);
     desc.render.acceleration = Acceleration::Bvh;
     (desc.effects.exposure, desc.effects.tone_map) = (0.0.into(), ToneMap::None);
     let hash = hash_hex(desc);

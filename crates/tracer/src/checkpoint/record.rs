@@ -2,6 +2,7 @@
 //! to make it again, but for the files that the scene names. Of them it knows the contents by their hashes.
 
 use super::picture::{all, first};
+use crate::args::AdaptiveName;
 use crate::command_line::quoted;
 use crate::write::sha256;
 use serde::{Deserialize, Serialize};
@@ -23,11 +24,14 @@ pub struct Record {
     pub set: Vec<String>,
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// Fewest and most samples of a pixel.
+    /// Fewest and most samples of a pixel, but for quiet tiles.
     pub samples: [u32; 2],
     /// Where it was ended within a pass ([`Plan`]).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<String>,
+    /// Quiet tiles have taken fewer samples than these.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub adaptive: bool,
     /// Of all random choices.
     pub seed: u32,
     /// Stops.
@@ -98,6 +102,7 @@ impl Record {
             size: film.size(),
             samples: [fewest, most],
             plan: film.plan().map(|plan| plan.to_string()),
+            adaptive: film.is_adaptive(),
             seed: film.seed(),
             exposure: first(notes, "exposure").parse().unwrap_or_default(),
             crop: [x, y, width, height],
@@ -176,6 +181,9 @@ impl Record {
             Some(plan) => option("--plan", plan.clone()),
             None => option("--samples", self.samples[0].to_string()),
         }
+        if self.adaptive {
+            option("--adaptive", AdaptiveName::Always.name().to_owned());
+        }
         option("--seed", self.seed.to_string());
         option("--exposure", self.exposure.to_string());
         let [x, y, width, height] = self.crop;
@@ -215,6 +223,7 @@ mod tests {
             size: [40, 24],
             samples: [2, 2],
             plan: None,
+            adaptive: false,
             seed: 1,
             exposure: -0.5,
             crop: [8, 0, 16, 24],

@@ -3,6 +3,7 @@
 use crate::checkpoint::Record;
 use crate::failure::{Failure, leads_nowhere, why};
 use crate::loading::{is_picture, nearby};
+use scene_format::desc::Adaptive;
 use scene_format::{LoadError, Loaded, Override, SceneDesc, Syntax};
 use std::path::Path;
 use tracer_core::{LayerSet, layer_word};
@@ -76,6 +77,9 @@ pub fn rendered(record: &Record, layers: LayerSet, text: &str, folder: &Path) ->
     desc.effects.exposure = record.exposure.into();
     // They have ended where the samples tell.
     (desc.render.noise, desc.render.time) = (None, None);
+    if record.adaptive {
+        desc.render.adaptive = Adaptive::Always;
+    }
     for layer in layers.iter().map(layer_word) {
         if !desc.output.layers.contains(&layer) {
             desc.output.layers.push(layer);

@@ -29,12 +29,16 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
         if items >> k & 1 == 0 {
             continue;
         }
+        let resting = batch.items[k].resting;
         for j in (0..ITEM_PIXELS).step_by(F::N) {
             let i = paths.len;
             let slot = F::U::load(&SLOTS[j..]) + F::U::splat((k * ITEM_PIXELS) as u32);
             let of = k * ITEM_PIXELS + j;
             let (x, y) = (F::load(&batch.pixels.x[of..]) - left, F::load(&batch.pixels.y[of..]) - top);
-            let inside = x.abs().lt(c(middle[0])) & y.abs().lt(c(middle[1]));
+            let mut inside = x.abs().lt(c(middle[0])) & y.abs().lt(c(middle[1]));
+            if resting != 0 {
+                inside = inside & awake::<F>(resting, F::U::load(&batch.pixels.z[of..]));
+            }
             let pixel = PixelOf::<F>::new(slot, &batch.pixels);
             let (u, v) = pixel_points.points(&pixel);
             let (dx, dy) = filter_offset::<F>(camera.filter, u, v);
@@ -59,6 +63,15 @@ pub fn camera<F: Lanes>(scene: &Scene, seed: u32, items: u32, batch: &mut Batch)
         }
     }
     batch.counters.camera_rays += paths.len as u64;
+}
+
+/// Pixels, by their numbers in Z-order, that lie in none of the tiles with a bit set.
+#[inline(always)]
+fn awake<F: Lanes>(resting: u8, z: F::U) -> F::M {
+    let tile = z.shr::<8>() & F::U::splat(3);
+    // The same as `resting >> tile & 1`.
+    let bits = F::U::gather(&[0, 1, 2, 3].map(|tile| u32::from(resting >> tile & 1)), tile);
+    bits.eq(F::U::splat(0))
 }
 
 /// One over the filter's density at an offset from the pixel's centre, in pixels; zero where light paths are not

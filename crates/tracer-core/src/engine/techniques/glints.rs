@@ -93,7 +93,7 @@ fn pilot(trial: &Trial<'_>) -> Option<Glints> {
         let tiles = (k * ITEMS..count.min((k + 1) * ITEMS)).map(|tile| tile as u32);
         let block =
             |tile: u32| Block::straight([first[0] + tile % columns, first[1] + tile / columns].map(|x| x as i32));
-        batch.items.extend(tiles.map(|tile| Item { block: block(tile), quarter: 0, sample: 0 }));
+        batch.items.extend(tiles.map(|tile| Item { block: block(tile), quarter: 0, sample: 0, resting: 0 }));
         batch.glints = 0;
         batch.start();
         follow(trial.engine, pass, u32::MAX, 1, batch);

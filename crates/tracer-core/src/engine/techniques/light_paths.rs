@@ -118,7 +118,7 @@ fn splat(scene: &Scene, film: OnFilm<'_, '_>, batch: &Batch) {
                 let scale = h / (h * splats.by_paths[k] + splats.by_light[k]);
                 if scale > 0.0 && scale.is_finite() && is_of_eye([column, row]) {
                     let brings = [0, 1, 2].map(|c| splats.brings[c][k] * scale);
-                    film.cells.splat([column, row], brings, (film.limit, film.half), film.group);
+                    film.cells.splat([column, row], brings, (film.limit, film.sample), film.group);
                 }
             }
         }

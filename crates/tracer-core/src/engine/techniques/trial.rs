@@ -19,5 +19,5 @@ pub fn stratified(scene: &Scene, seed: u32, k: u32, count: u32) -> Item {
     let (first, end) = (all * k / count, (all * (k + 1) / count).max(all * k / count + 1).min(all));
     let quarter = first + hash3(seed, 0x001d_17ed, k as u32) % (end - first).max(1);
     let (tile, quarter) = ((quarter / u64::from(QUARTERS)) as u32, (quarter % u64::from(QUARTERS)) as u32);
-    Item { block: Block::straight([tile % across, tile / across].map(|tile| tile as i32)), quarter, sample }
+    Item { block: Block::straight([tile % across, tile / across].map(|tile| tile as i32)), quarter, sample, resting: 0 }
 }

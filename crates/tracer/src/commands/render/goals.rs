@@ -47,6 +47,9 @@ pub fn described(args: &RenderArgs, desc: &mut SceneDesc) {
     if let Some(noise) = args.noise {
         desc.render.noise = Some(noise.into());
     }
+    if let Some(adaptive) = args.adaptive {
+        desc.render.adaptive = adaptive.word();
+    }
     if let Some(time) = args.time {
         desc.render.time = Some(time.as_secs_f64().into());
     }

@@ -92,6 +92,7 @@ fn of_no_use(args: &RenderArgs) -> Option<&'static str> {
         (args.noise.is_some(), "--noise"),
         (args.time.is_some(), "--time"),
         (args.plan.is_some(), "--plan"),
+        (args.adaptive.is_some(), "--adaptive"),
         (!args.layers.is_empty(), "--layers"),
         (args.show.is_some(), "--show"),
         (args.denoise.is_on(), "--denoise"),

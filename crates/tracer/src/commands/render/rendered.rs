@@ -5,6 +5,7 @@ use super::asked::Asked;
 use super::goals::{self, Afterwards};
 use super::outputs::{self, Output};
 use super::ready::Ready;
+use crate::args::AdaptiveName;
 use crate::checkpoint::Checkpoints;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -80,6 +81,10 @@ impl Rendered {
             goals::end(&mut asked.desc, &self.film, self.interrupted, asked.shell);
         }
         asked.args.plan = self.film.plan().filter(|_| !self.interrupted);
+        if self.film.is_adaptive() {
+            // Also where no noise is asked for.
+            asked.args.adaptive = Some(AdaptiveName::Always);
+        }
     }
 
     /// Whether no picture is made of it. Of a picture that is there already there is more than of one that has hardly

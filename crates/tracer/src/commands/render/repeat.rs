@@ -51,6 +51,9 @@ pub(in super::super) fn words(args: &RenderArgs, desc: &SceneDesc) -> Vec<String
         Some(plan) => option("--plan", plan.to_string()),
         None => option("--samples", desc.render.samples.value.to_string()),
     }
+    if let Some(adaptive) = args.adaptive {
+        option("--adaptive", adaptive.name().to_owned());
+    }
     option("--seed", desc.render.seed.value.to_string());
     if let Some(exposure) = args.exposure {
         option("--exposure", exposure.to_string());

@@ -83,7 +83,7 @@ fn of_scene(desc: &SceneDesc, notes: &[Note]) -> SceneReport {
 
 /// But for the marks.
 fn of_picture(desc: &SceneDesc, ready: &Ready, film: &Film, before: &Before) -> PictureReport {
-    let (samples_min, samples_max) = film.samples().into_inner();
+    let (samples_min, samples_max) = film.samples_of_pixels().into_inner();
     let Crop { x, y, width, height } = film.crop();
     let layers = ready.written_layers.names().map(str::to_owned);
     let groups = film.light_groups().iter().map(|group| format!("light.{group}"));
@@ -98,6 +98,8 @@ fn of_picture(desc: &SceneDesc, ready: &Ready, film: &Film, before: &Before) -> 
         part: film.part().map(|part| [part.first, part.end]),
         samples_min,
         samples_max,
+        samples_mean: film.camera_samples() as f64 / (f64::from(width) * f64::from(height)),
+        adaptive: film.is_adaptive(),
         samples_resumed: before.samples,
         layers: layers.chain(ready.scene.mattes.names()).chain(groups).collect(),
         marks: Vec::new(),

@@ -81,7 +81,7 @@ fn directions_have_the_density_that_is_reckoned_with() {
         let mut batch = Batch::new();
         let (mut area, mut squares, mut members) = (0.0, 0.0, 0.0);
         for sample in 0..512 {
-            batch.items = vec![Item { block: Block::straight([1, 2]), quarter: 1, sample }];
+            batch.items = vec![Item { block: Block::straight([1, 2]), quarter: 1, sample, resting: 0 }];
             batch.pixels.find(&batch.items);
             batch.paths.len = 0;
             batch.aimers.len = ITEM_PIXELS;
