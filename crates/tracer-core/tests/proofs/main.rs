@@ -5,6 +5,7 @@
 // What a proof expects reaches no picture: it may be computed by std.
 #![allow(clippy::disallowed_methods)]
 
+mod adaptive;
 mod aimed;
 mod amounts;
 mod analytic;

@@ -36,7 +36,7 @@ fn luminance([r, g, b]: [f64; 3]) -> f64 {
 }
 
 /// Root mean square error of the luminance relative to its mean, by what pictures with other seeds differ by.
-fn error(films: &[Film]) -> f64 {
+pub fn error(films: &[Film]) -> f64 {
     let n = films.len() as f64;
     let (mut squares, mut mean) = (0.0, 0.0);
     let Crop { x, y, width, height } = films[0].crop();
