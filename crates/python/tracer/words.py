@@ -247,6 +247,7 @@ class Render(TypedDict, total=False):
     indirect: How light comes to second vertices over further surfaces.
     clamp: The most that one camera sample counts: where the largest channel of what it has found, lamps in view included, is more than this (before exposure), all three are scaled down together, so that the hue stays. That takes fireflies, and their light with them: such pixels stay too dark however many samples follow. The report says how much was taken. `None` takes nothing. What one light path brings (`caustics`) counts at most as much; a caustic of many may be brighter. Unit: W/(sr m^2).
     noise: The rendering ends as soon as the noise is no more than this: the root mean square over the pixels of their standard error, relative to the mean luminance, as the report has it. 0.01 is hardly seen. It is told by how two halves of the samples differ, 0.8 to 1.2 times the true error (docs/noise.md), where few pixels bear it half to twice as much, and where something moves while the shutter is open by how they scatter, which is more. With `alpha` or `backdrop` it is that of the picture without the background. `samples` are the most. It is looked at after whole passes only, four times while the samples double, so the picture depends on nothing else; first when all pixels have 16 samples, where something moves 16 or 64. What is rarer is missing in a picture that ends then, and in its noise. `None`: all samples.
+    adaptive: Whether parts of the picture that are quiet take fewer samples than those that are noisy: tiles of 16x16 pixels a half, a quarter or an eighth of them, from 64 samples per pixel on. It is unbiased: four pictures of one sample per pixel, which are not shown, tell which, and where less than a fifth of the samples would be saved all tiles take all. `samples` are those of the noisy ones then (docs/noise.md). Where something moves while the shutter is open all take all.
     time: The rendering ends when the program has run so long. `samples` are the most. `None`: all samples. Unit: seconds.
     """
 
@@ -260,6 +261,7 @@ class Render(TypedDict, total=False):
     indirect: Either[Indirect, PickItem]
     clamp: Any
     noise: Any
+    adaptive: Either[Adaptive, PickItem]
     time: Any
 
 
@@ -281,6 +283,8 @@ Reuse = Any
 Caustics = Any
 
 Indirect = Literal["Map", "Paths"]
+
+Adaptive = Literal["WithNoise", "Always", "Never"]
 
 class Effects(TypedDict, total=False):
     """Film and lens effects.

@@ -18,7 +18,7 @@ mod stages;
 pub mod told;
 pub mod watch;
 
-pub use stages::camera::density;
+pub use stages::camera::{along_axis, density};
 pub use stages::deposit::deposit;
 pub use stages::light_paths::LightPass;
 pub use stages::planes::{planes_closest, planes_hide, planes_occluded};

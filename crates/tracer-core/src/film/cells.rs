@@ -73,32 +73,39 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Adds what a light path of a sample index, and of a group of so many, brings to a pixel, if it is one of the crop
-    /// and takes that index.
+    /// Adds what a light path of a sample index, and of a group of so many, brings to pixels, to those of the crop that
+    /// take that index. Pixels of one tile that come one after the other cost one lock.
     pub fn splat(
         &self,
-        [x, y]: [i32; 2],
-        brings: [f32; 3],
+        falls: &[([i32; 2], [f32; 3])],
         (limit, sample): (Option<f64>, u32),
         group: Option<[usize; 2]>,
     ) {
         let Crop { x: left, y: top, width, height } = self.crop;
-        let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
-        if x < left || y < top || x - left >= width || y - top >= height {
-            return;
-        }
-        let place = (y / TILE - self.first_tile[1]) * self.columns + x / TILE - self.first_tile[0];
-        let pixel = z_order(x % TILE, y % TILE) as usize;
-        let tile = &mut self.lock(place as usize).tile;
-        if !tile.takes(sample) {
-            return;
-        }
-        let Some(added) = tile.splat(pixel, brings, limit) else { return };
-        if tile.half_of(sample) == 1 {
-            tile.splat_half(pixel, added);
-        }
-        if let Some([group, count]) = group {
-            tile.splat_group((group, count), pixel, added);
+        let mut held: Option<(u32, MutexGuard<'_, Cell<'a>>)> = None;
+        for &([x, y], brings) in falls {
+            let (x, y) = (x as u32, y as u32);
+            // Left of and above the picture they are larger than any side.
+            if x.wrapping_sub(left) >= width || y.wrapping_sub(top) >= height {
+                continue;
+            }
+            let place = (y / TILE - self.first_tile[1]) * self.columns + x / TILE - self.first_tile[0];
+            if held.as_ref().is_none_or(|(of, _)| *of != place) {
+                // One at a time: the last one is given free first.
+                drop(held.take());
+                held = Some((place, self.lock(place as usize)));
+            }
+            let Some(tile) = held.as_mut().map(|(_, cell)| &mut *cell.tile).filter(|tile| tile.takes(sample)) else {
+                continue;
+            };
+            let pixel = z_order(x % TILE, y % TILE) as usize;
+            let Some(added) = tile.splat(pixel, brings, limit) else { continue };
+            if tile.half_of(sample) == 1 {
+                tile.splat_half(pixel, added);
+            }
+            if let Some([group, count]) = group {
+                tile.splat_group((group, count), pixel, added);
+            }
         }
     }
 

@@ -10,11 +10,11 @@ use std::sync::Arc;
 use std::time::Instant;
 use tracer_kernels::engine::LightPass;
 use tracer_kernels::engine::batch::{Batch, PATHS};
-use tracer_kernels::engine::density;
 use tracer_kernels::engine::guide::plan::{Plan, Share};
 use tracer_kernels::engine::light_paths::LightPaths;
 use tracer_kernels::engine::pass::{Pass, PhotonPass};
 use tracer_kernels::engine::pool::Pool;
+use tracer_kernels::engine::{along_axis, density};
 use tracer_kernels::report::Stage;
 use tracer_kernels::sampling::blocks::QUARTERS;
 use tracer_kernels::scene::Scene;
@@ -106,21 +106,30 @@ fn splat(scene: &Scene, film: OnFilm<'_, '_>, batch: &Batch) {
     // What falls into one eye's half stays there.
     let half = scene.camera.stereo.map(|stereo| usize::from(stereo.above));
     let half = half.map(|axis| (axis, 0.5 * scene.size[axis] as f32));
+    let (mut columns, mut falls) = (Vec::new(), Vec::new());
     for k in (0..splats.len).filter(|&k| arrives(k) && !is_hidden(k)) {
         let (x, y) = (splats.x[k], splats.y[k]);
         let is_of_eye = |pixel: [i32; 2]| {
             half.is_none_or(|(axis, border)| (pixel[axis] as f32 + 0.5 < border) == ([x, y][axis] < border))
         };
         let pixels = |at: f32| (at - 0.5 - reach).ceil() as i32..=(at - 0.5 + reach).floor() as i32;
+        columns.clear();
+        columns.extend(pixels(x).map(|column| {
+            let offset = x - 0.5 - column as f32;
+            (column, offset, along_axis(filter, offset))
+        }));
+        falls.clear();
         for row in pixels(y) {
-            for column in pixels(x) {
-                let h = density(filter, x - 0.5 - column as f32, y - 0.5 - row as f32);
+            let offset = y - 0.5 - row as f32;
+            let along = along_axis(filter, offset);
+            for &(column, of_column, along_column) in &columns {
+                let h = density(filter, [of_column, offset], [along_column, along]);
                 let scale = h / (h * splats.by_paths[k] + splats.by_light[k]);
                 if scale > 0.0 && scale.is_finite() && is_of_eye([column, row]) {
-                    let brings = [0, 1, 2].map(|c| splats.brings[c][k] * scale);
-                    film.cells.splat([column, row], brings, (film.limit, film.sample), film.group);
+                    falls.push(([column, row], [0, 1, 2].map(|c| splats.brings[c][k] * scale)));
                 }
             }
         }
+        film.cells.splat(&falls, (film.limit, film.sample), film.group);
     }
 }
