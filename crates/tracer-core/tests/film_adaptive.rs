@@ -13,7 +13,7 @@ use tracer_core::{
     SavedFilm, Scene, Split, Unobserved, compile, render, resume,
 };
 
-/// A ball of glass and one of metal in the right half, beside a small lamp; floor and sky are quiet.
+/// A ball of glass and one of metal on a disk in the right half, beside a small lamp; the sky is quiet.
 const SCENE: &str = r#"Scene(
     version: 1,
     camera: Camera(position: (0, 1, 6), look_at: (0, 0.5, 0), fov: 40),
@@ -22,9 +22,9 @@ const SCENE: &str = r#"Scene(
     render: Render(max_bounces: 4, adaptive: Always),
     lights: [SphereLight(center: (4, 5, 1), radius: 0.1, radiance: 3000, group: "key")],
     objects: [
-        Sphere(center: (0, -100, 0), radius: 100),
-        Sphere(center: (1.5, 0.7, 0), radius: 0.7, material: Transparent(ior: 1.5)),
-        Sphere(center: (0.3, 0.4, 1), radius: 0.4, material: Conductor(metal: Gold, roughness: 0.1)),
+        Disk(center: (1.3, 0, 0.3), radius: 1.3, normal: (0, 1, 0)),
+        Sphere(center: (1.6, 0.6, 0), radius: 0.6, material: Transparent(ior: 1.5)),
+        Sphere(center: (0.6, 0.3, 0.8), radius: 0.3, material: Conductor(metal: Gold, roughness: 0.1)),
     ],
 )"#;
 
@@ -78,10 +78,8 @@ fn cases() -> Vec<Scene> {
         // Pixels share: within a ball.
         scene(&[
             "background=0",
-            "objects[0].center=(0, 4, 0)",
-            "objects[0].radius=7",
+            "objects[0]=Sphere(center: (0, 4, 0), radius: 7, material: Diffuse(albedo: 0.3))",
             "lights[0].radius=0.4",
-            "objects[0].material=Diffuse(albedo: 0.3)",
         ]),
     ]
 }
@@ -94,7 +92,7 @@ fn quiet_tiles_rest_and_others_do_not() {
     // 64, and one in eight of the others.
     assert_eq!(*film.samples_of_pixels().start(), 64 + 192 / 8);
     let mean = film.camera_samples() as f64 / (72.0 * 56.0);
-    assert!(mean < 0.75 * 256.0, "{mean}");
+    assert!(mean < 0.8 * 256.0, "{mean}");
     // Nobody rests before it is decided, and where all is even.
     for (scene, samples) in [(scene(&[]), 64), (even_room(&[]), 256), (scene(&["render.adaptive=Never"]), 128)] {
         let film = render(&scene, &options(samples), &Unobserved);
@@ -266,7 +264,7 @@ fn a_noise_goal_lets_tiles_rest() {
     let fewer = far.camera_samples() as f64 / never.camera_samples() as f64;
     assert!(fewer < 0.8, "{fewer}");
     // Where something moves all take all.
-    let moving = scene(&["camera.shutter=0.5", "objects[2].center=(\"=0.3 + time\", 0.4, 1)"]);
+    let moving = scene(&["camera.shutter=0.5", "objects[2].center=(\"=0.6 + time\", 0.3, 1)"]);
     assert!(!render(&moving, &options(130), &Unobserved).is_adaptive());
 }
 

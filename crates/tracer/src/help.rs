@@ -38,7 +38,7 @@ const WHOLE: &str = "{about}\n\n{usage-heading} {usage}\n\n{all-args}{after-help
 /// Headings of the whole help of `tracer render` and commands with the same options, and what stands under each.
 const HEADINGS: [(&str, &[&str]); 7] = [
     ("Picture", &["output", "size", "crop", "exposure", "layers", "show", "format", "bits", "no_metadata", "open"]),
-    ("Quality", &["samples", "noise", "time", "plan", "seed", "integrator", "threads"]),
+    ("Quality", &["samples", "noise", "adaptive", "time", "plan", "seed", "integrator", "threads"]),
     ("Denoising", &["denoise"]),
     ("Animation", &["frames", "skip_existing"]),
     ("Parts and checkpoints", &["part", "split", "checkpoint", "every", "resume"]),
@@ -47,7 +47,7 @@ const HEADINGS: [(&str, &[&str]); 7] = [
 ];
 
 /// What holds where an option is not written, of those whose short help has no room for it.
-const DEFAULTS: [(&str, &str); 14] = [
+const DEFAULTS: [(&str, &str); 15] = [
     ("size", "the scene's `image`"),
     ("crop", "all of it"),
     ("exposure", "the scene's, 0"),
@@ -56,6 +56,7 @@ const DEFAULTS: [(&str, &str); 14] = [
     ("bits", "8"),
     ("samples", "the scene's"),
     ("noise", "none"),
+    ("adaptive", "the scene's, with_noise"),
     ("time", "no limit"),
     ("seed", "the scene's"),
     ("integrator", "the scene's"),
@@ -131,6 +132,7 @@ pub fn command() -> Command {
                         "layers",
                         "denoise",
                         "integrator",
+                        "adaptive",
                         "no_metadata",
                         "cache",
                         "cache_size",
@@ -149,6 +151,7 @@ pub fn command() -> Command {
         // A screen has no room for all: its last line says where these are.
         .mut_subcommand("render", |command| {
             [
+                "adaptive",
                 "plan",
                 "syntax",
                 "diagnostics",

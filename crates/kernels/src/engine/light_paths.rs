@@ -63,9 +63,13 @@ impl LightPaths {
         })
     }
 
+    /// How many there are for a sample index.
+    pub fn count(&self) -> u64 {
+        self.shares.iter().map(|share| u64::from(share.count)).sum()
+    }
+
     /// Sample indices that are followed at a time.
     pub fn at_once(&self) -> u32 {
-        let of_one: u64 = self.shares.iter().map(|share| u64::from(share.count)).sum();
-        (MOST / of_one).max(1) as u32
+        (MOST / self.count()).max(1) as u32
     }
 }

@@ -1,11 +1,13 @@
 //! Which tiles rest: told by four pictures of one sample per pixel, with seeds of their own, that are not shown.
 //!
 //! Two of them differ by what two samples of a pixel do, sharing and light paths and all. For the least variance of the
-//! whole picture a tile takes samples in proportion to the root of its own (Neyman 1934), over equal costs: here a half,
-//! a quarter or an eighth of those that the noisiest tiles take. What a tile has is smoothed with its neighbours', for
-//! it tells little by itself. Above which variance tiles take all is chosen by what it brings, and that is judged by two
-//! pictures that the other two know nothing of, both ways: where few pixels bear the noise, what one pair finds bright
-//! the other does not, and nothing would be gained. Where less than a fifth is, no tile rests.
+//! whole picture in a given time a tile takes samples in proportion to the root of its own over what its samples cost
+//! (Neyman 1934): here a half, a quarter or an eighth of those that the noisiest tiles take. The cost is counted in rays
+//! of paths, of which glass has many and the sky has one, not measured: so it is the same on every machine. What a tile
+//! has is smoothed with its neighbours', for it tells little by itself. Above which variance tiles take all is chosen by
+//! the time that it saves, that of light paths, which come whoever rests, beside it; and that is judged by two pictures
+//! that the other two know nothing of, both ways: where few pixels bear the noise, what one pair finds bright the other
+//! does not, and nothing would be gained. Where less than a fifth is, no tile rests.
 //!
 //! Tried: pictures of two, four and eight samples instead of one tell no more (docs/noise.md).
 
@@ -17,12 +19,19 @@ use crate::scene::Scene;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use tracer_kernels::layers::LayerSet;
+use tracer_kernels::layers::{Layer, LayerSet};
 use tracer_kernels::sampling::blocks::TILE;
 use tracer_kernels::sampling::sampler::hash3;
 
-/// Samples for the same noise are so many times fewer at least, or no tile rests.
+/// The same noise takes so many times less at least, or no tile rests.
 const WORTH: f64 = 1.2;
+
+/// What a sample costs beside its path's rays: what is shared, and its place on the film.
+const SAMPLE: f64 = 1.0;
+
+/// What a light path costs: two rays and a half on average, and what falls on the film, in rays of camera paths. Of
+/// `marbles`, whose filter is wide, 3.7 were measured.
+const LIGHT_PATH: f64 = 4.0;
 
 /// The variance above which tiles take all samples is looked for among those of so many tiles.
 const CANDIDATES: usize = 32;
@@ -46,14 +55,21 @@ pub(super) fn fits(scene: &Scene, options: &RenderOptions, film: &Film) -> bool 
     asked.is_none_or(|asked| film.adaptive().is_some() == asked)
 }
 
-/// Decides it; `None` where the observer has ended the rendering.
-pub(super) fn plan(scene: &Scene, options: &RenderOptions, film: &Film, observer: Quiet<'_>) -> Option<Arc<Adaptive>> {
+/// Decides it, where there are so many light paths for a sample index; `None` where the observer has ended the
+/// rendering.
+pub(super) fn plan(
+    scene: &Scene,
+    options: &RenderOptions,
+    film: &Film,
+    light_paths: u64,
+    observer: Quiet<'_>,
+) -> Option<Arc<Adaptive>> {
     let pictures = [0, 1, 2, 3].map(|k| picture(scene, options, hash3(film.seed(), 0x_ada9_71fe, k) as u32, &observer));
     if observer.is_ended.into_inner() {
         return None;
     }
     let tiles = scene.size.map(|side| side.div_ceil(TILE));
-    let pairs = [[0, 1], [2, 3]].map(|[a, b]| Tiles::of(tiles, &pictures[a], &pictures[b]));
+    let pairs = [[0, 1], [2, 3]].map(|[a, b]| Tiles::of(tiles, &pictures[a], &pictures[b], light_paths));
     let rests = pairs[0].rests(&pairs[1]);
     Some(Arc::new(
         rests.and_then(|rests| Adaptive::new(scene.size, rests)).unwrap_or_else(|| Adaptive::even(scene.size)),
@@ -70,7 +86,7 @@ fn picture(scene: &Scene, options: &RenderOptions, seed: u32, observer: &Quiet<'
         reuse: options.reuse,
         caustics: options.caustics,
         clamp: options.clamp,
-        layers: Some(LayerSet::default()),
+        layers: Some(LayerSet::from_iter([Layer::PathLength])),
         light_groups: Some(false),
         adaptive: Some(false),
         ..RenderOptions::default()
@@ -108,20 +124,34 @@ struct Tiles {
     counts: Vec<f64>,
     /// Variance of a sample of each, mean over its pixels.
     variances: Vec<f64>,
+    /// What a sample of each costs, mean over its pixels.
+    costs: Vec<f64>,
+    /// What the light paths of a sample index cost.
+    light: f64,
 }
 
 impl Tiles {
-    fn of(size: [u32; 2], a: &Film, b: &Film) -> Self {
-        let count = size[0] as usize * size[1] as usize;
-        let (mut counts, mut variances) = (vec![0.0; count], vec![0.0; count]);
+    fn of(size: [u32; 2], a: &Film, b: &Film, light_paths: u64) -> Self {
+        let none = vec![0.0; size[0] as usize * size[1] as usize];
+        let light = LIGHT_PATH * light_paths as f64;
+        let mut tiles = Tiles { size, counts: none.clone(), variances: none.clone(), costs: none, light };
         for (x, y) in a.pixels() {
             let tile = (y / TILE * size[0] + x / TILE) as usize;
             let difference = a.mean_luminance(x, y) - b.mean_luminance(x, y);
-            counts[tile] += 1.0;
-            variances[tile] += 0.5 * difference * difference;
+            let rays = [a, b].map(|film| f64::from(film.number(Layer::PathLength, x, y)));
+            tiles.counts[tile] += 1.0;
+            tiles.variances[tile] += 0.5 * difference * difference;
+            tiles.costs[tile] += SAMPLE + 0.5 * (rays[0] + rays[1]);
         }
-        variances.iter_mut().zip(&counts).for_each(|(variance, count)| *variance /= count);
-        Tiles { size, counts, variances }
+        for mean in [&mut tiles.variances, &mut tiles.costs] {
+            mean.iter_mut().zip(&tiles.counts).for_each(|(mean, count)| *mean /= count);
+        }
+        tiles
+    }
+
+    /// What is to be in proportion to the square of a tile's samples: variance over cost, smoothed.
+    fn wanted(&self) -> Vec<f64> {
+        self.smoothed().iter().zip(&self.costs).map(|(variance, cost)| variance / cost).collect()
     }
 
     /// With the weights 1, 2, 1 both ways.
@@ -139,22 +169,21 @@ impl Tiles {
         (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))).map(|(c, r)| mean(c, r)).collect()
     }
 
-    /// How many times fewer samples make the same variance, if tiles take them so.
+    /// How many times less it takes to make the same variance, if tiles rest so.
     fn gain(&self, rests: &[u8]) -> f64 {
-        let (mut even, mut adaptive, mut samples, mut all) = (0.0, 0.0, 0.0, 0.0);
-        for ((&rest, &count), &variance) in rests.iter().zip(&self.counts).zip(&self.variances) {
+        let (mut even, mut adaptive) = ([0.0, self.light], [0.0, self.light]);
+        for (k, &rest) in rests.iter().enumerate() {
             let of_all = f64::from(1_u32 << rest);
-            even += count * variance;
-            adaptive += count * variance * of_all;
-            samples += count / of_all;
-            all += count;
+            let (variance, cost) = (self.counts[k] * self.variances[k], self.counts[k] * self.costs[k]);
+            even = [even[0] + variance, even[1] + cost];
+            adaptive = [adaptive[0] + variance * of_all, adaptive[1] + cost / of_all];
         }
-        if adaptive > 0.0 { even / adaptive * all / samples } else { 1.0 }
+        if adaptive[0] > 0.0 { even[0] / adaptive[0] * even[1] / adaptive[1] } else { 1.0 }
     }
 
     /// How much tiles rest, by what both pairs of pictures tell; `None` where that would not be worth it.
     fn rests(&self, other: &Tiles) -> Option<Vec<u8>> {
-        let [own, others] = [self, other].map(Tiles::smoothed);
+        let [own, others] = [self, other].map(Tiles::wanted);
         let both: Vec<f64> = own.iter().zip(&others).map(|(a, b)| 0.5 * (a + b)).collect();
         let mut sorted = both.clone();
         sorted.sort_unstable_by(f64::total_cmp);

@@ -265,7 +265,8 @@ impl Work<'_> {
         }
         let samples_done = painter.done.load(Ordering::Relaxed);
         let now = Progress { samples_done, samples_total: painter.samples_total };
-        let Some(adaptive) = adaptive::plan(scene, self.options, film, Quiet::new(self.observer, now)) else {
+        let observer = Quiet::new(self.observer, now);
+        let Some(adaptive) = adaptive::plan(scene, self.options, film, painter.light_paths(), observer) else {
             return false;
         };
         film.keep_adaptive(Some(adaptive));

@@ -312,6 +312,11 @@ impl Painter<'_> {
         })
     }
 
+    /// How many light paths there are for a sample index.
+    pub fn light_paths(&self) -> u64 {
+        self.bringers().map(|(_, technique, _)| technique.count()).sum()
+    }
+
     /// Has light brought to the film beside the samples of these indices; where it has come to.
     fn bring(&self, plain: Pass<'_>, samples: Range<u32>, cells: &Cells<'_>) -> u32 {
         let mut next = samples.start;

@@ -96,6 +96,11 @@ pub trait Technique: Send + Sync {
         None
     }
 
+    /// How many light paths it follows for a sample index.
+    fn count(&self) -> u64 {
+        0
+    }
+
     /// Brings the light of these sample indices to the film, no more of them than [`Technique::at_once`] says.
     fn bring(&self, _: Engine<'_>, _: Pass<'_>, _samples: Range<u32>, _: OnFilm<'_, '_>, _: &Pool) {}
 }

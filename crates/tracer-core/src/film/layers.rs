@@ -187,6 +187,15 @@ impl Film {
         self.layers.iter().map(|of| of.layer).collect()
     }
 
+    /// What a pixel has of a layer, its first channel; zero where the film has no such layer. On the thread that asks.
+    pub(crate) fn number(&self, layer: Layer, x: u32, y: u32) -> f32 {
+        let Some(of) = self.layers.iter().find(|of| of.layer == layer) else { return 0.0 };
+        let before = self.layers().iter().take_while(|&other| other != layer).collect::<LayerSet>().kept();
+        let mut pixel = [0.0; 3];
+        self.layer_of_pixel(x, y, of, before, &mut pixel[..definition(layer).channels.len()]);
+        pixel[0]
+    }
+
     /// The pixels of a layer, those that [`Film::crop`] holds; `None` where the film has no such layer.
     ///
     /// # Examples

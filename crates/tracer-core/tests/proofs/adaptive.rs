@@ -24,7 +24,7 @@ fn scene(text: &str, adaptive: bool) -> Scene {
 const BEFORE_A_SKY: &str = "camera: Camera(position: (0, 1, 6), look_at: (0, 0.5, 0), fov: 45), \
     background: (0.2, 0.3, 0.4), render: Render(max_bounces: 4), \
     lights: [SphereLight(center: (4, 5, 1), radius: 0.3, radiance: 500)], \
-    objects: [Rectangle(size: 20), \
+    objects: [Disk(center: (1.7, 0, 0.8), radius: 1.1, normal: (0, 1, 0)), \
         Sphere(center: (1.9, 0.4, 0.8), radius: 0.4, material: Transparent(ior: 1.5)), \
         Rectangle(center: (-2.6, 1, -1), normal: (1, 0, 0.6), size: (2.4, 2)), \
         Rectangle(center: (0.2, 0.6, -1.4), normal: (-0.2, 0.2, 1), size: 1.2, material: Mirror(reflectance: 0.9))]";

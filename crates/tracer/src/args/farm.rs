@@ -2,8 +2,8 @@
 
 use super::render::frames;
 use super::{
-    CacheArgs, DenoiseArgs, Frames, IntegratorName, RenderArgs, SceneArgs, Size, SplitName, bits, count, crop,
-    exposure, interval, layer, size,
+    AdaptiveName, CacheArgs, DenoiseArgs, Frames, IntegratorName, RenderArgs, SceneArgs, Size, SplitName, bits, count,
+    crop, exposure, interval, layer, size,
 };
 use crate::write::Bits;
 use clap::{Args, Subcommand};
@@ -119,6 +119,9 @@ pub struct FarmSlurmArgs {
     /// What to render: full, path, direct or ambient_occlusion
     #[arg(long, value_enum, value_name = "NAME", hide_possible_values = true)]
     pub integrator: Option<IntegratorName>,
+    /// Fewer samples where it is quiet: always or never
+    #[arg(long, value_enum, value_name = "WHEN", hide_possible_values = true)]
+    pub adaptive: Option<AdaptiveName>,
     #[command(flatten)]
     #[allow(missing_docs)]
     pub denoise: DenoiseArgs,
@@ -148,6 +151,7 @@ impl FarmSlurmArgs {
             denoise: self.denoise,
             cache: self.cache.clone(),
             integrator: self.integrator,
+            adaptive: self.adaptive,
             every: self.every,
             no_metadata: self.no_metadata,
             ..RenderArgs::default()

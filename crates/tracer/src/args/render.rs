@@ -50,7 +50,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "SHARE", value_parser = noise)]
     pub noise: Option<f64>,
     /// Whether quiet parts take fewer samples: with_noise, always or never
-    #[arg(long, value_enum, value_name = "WHEN", hide_possible_values = true, hide_short_help = true)]
+    #[arg(long, value_enum, value_name = "WHEN", hide_possible_values = true)]
     #[arg(help = "Fewer samples where it is quiet: with_noise, always or never")]
     pub adaptive: Option<AdaptiveName>,
     /// End after this time, all written: 60s, 5m, 1h

@@ -123,3 +123,63 @@ fn a_plan_is_the_same_bytes_on_any_threads() {
         sandbox.run(&["render", "scene.ron", "-o", "e.png", "--plan", bad]).ends(2).says(&["four numbers"]);
     }
 }
+
+/// What a noise goal has ended while quiet tiles rest is told, and made again to the byte: by the report's command, from
+/// the picture, and wherever it was interrupted.
+#[test]
+fn quiet_tiles_rest_where_a_noise_is_asked_for() {
+    let sandbox = Sandbox::new();
+    sandbox.write(
+        "glass.ron",
+        r#"Scene(
+    version: 1,
+    camera: Camera(position: (0, 1, 6), look_at: (0, 0.5, 0), fov: 40),
+    image: Image(width: 72, height: 56),
+    background: (0.2, 0.3, 0.4),
+    render: Render(max_bounces: 4),
+    lights: [SphereLight(center: (4, 5, 1), radius: 0.4, radiance: 200)],
+    objects: [
+        Disk(center: (1.3, 0, 0.3), radius: 1.3, normal: (0, 1, 0)),
+        Sphere(center: (1.6, 0.6, 0), radius: 0.6, material: Transparent(ior: 1.5)),
+    ],
+)"#,
+    );
+    let noise = |samples: &str| {
+        sandbox.run(&["render", "glass.ron", "-o", "x.png", "--samples", samples, "--report", "x.json"]).ends(0);
+        report(&sandbox, "x.json")["noise"]["relative"].as_f64().expect("a number")
+    };
+    let goal = (0.6 * noise("64")).to_string();
+    let line = ["render", "glass.ron", "-o", "a.png", "--noise", &goal, "--report", "a.json"];
+    sandbox.run(&line).ends(0).says(&["on average: that is good enough"]);
+    let of_first = report(&sandbox, "a.json");
+    let picture = of_first["picture"].clone();
+    assert_eq!(picture["adaptive"], true);
+    let [least, mean, most] =
+        ["samples_min", "samples_mean", "samples_max"].map(|name| picture[name].as_f64().expect("a number"));
+    assert!(64.0 < least && least < 0.8 * most && least <= mean && mean < most, "{picture}");
+    let command = of_first["command"].as_str().expect("a command");
+    assert!(command.contains("--adaptive always"), "{command}");
+    let again = command.replace("a.png", "b.png");
+    sandbox.run(&again.split(' ').skip(1).chain(["-j", "1"]).collect::<Vec<_>>()).ends(0);
+    assert_eq!(sandbox.read("a.png"), sandbox.read("b.png"));
+    sandbox.run(&["repro", "a.png"]).ends(0).says(&["the same"]);
+    // Of what one part has, all make the whole.
+    let most = most.to_string();
+    let whole = ["--samples", &most, "--adaptive", "always", "--seed", "3"];
+    sandbox.run(&[&["render", "glass.ron", "-o", "c.pfm"][..], &whole].concat()).ends(0);
+    for part in ["1/2", "2/2"] {
+        let file = format!("{}.tracer", &part[..1]);
+        sandbox.run(&[&["render", "glass.ron", "--part", part, "-o", &file][..], &whole].concat()).ends(0);
+    }
+    sandbox.run(&["merge", "1.tracer", "2.tracer", "-o", "d.pfm"]).ends(0);
+    assert_eq!(sandbox.read("c.pfm"), sandbox.read("d.pfm"));
+    // A checkpoint of it is gone on with, and no other way.
+    let kept = ["render", "glass.ron", "-o", "e.pfm", "--resume", "e.tracer"];
+    sandbox.run(&[&kept[..], &["--samples", "100", "--adaptive", "always", "--seed", "3"]].concat()).ends(0);
+    sandbox
+        .run(&[&kept[..], &["--samples", "120", "--adaptive", "never", "--seed", "3"]].concat())
+        .ends(2)
+        .says(&["adaptive sampling"]);
+    sandbox.run(&[&kept[..], &whole].concat()).ends(0);
+    assert_eq!(sandbox.read("c.pfm"), sandbox.read("e.pfm"));
+}

@@ -3,6 +3,7 @@
 //! A list of plausible slips, not of random ones: what a person gets wrong in a path tracer. One that no test notices
 //! is a missing test. `cargo xtask mutants` seeds them one at a time in a copy of the repository.
 
+mod adaptive;
 mod curved;
 mod engine;
 mod environment;
@@ -105,7 +106,7 @@ pub fn all() -> impl Iterator<Item = &'static Mutant> {
         files::MUTANTS,
         layers::MUTANTS,
     ];
-    rooms.into_iter().chain([environment::MUTANTS]).flatten()
+    rooms.into_iter().chain([environment::MUTANTS, adaptive::MUTANTS]).flatten()
 }
 
 impl Mutant {

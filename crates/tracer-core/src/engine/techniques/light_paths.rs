@@ -45,6 +45,10 @@ impl Technique for OfRendering {
         Some(self.light_paths.at_once())
     }
 
+    fn count(&self) -> u64 {
+        self.light_paths.count()
+    }
+
     /// Follows the light paths of these sample indices, which have one guide, onto the film.
     fn bring(&self, engine: Engine<'_>, pass: Pass<'_>, samples: Range<u32>, film: OnFilm<'_, '_>, pool: &Pool) {
         let Some(guide) = pass.guide else { return };

@@ -186,10 +186,11 @@ mod tests {
     ];
 
     /// A value of each of the others; those that stand in the part's script by themselves are marked.
-    const HANDED_ON: [(&str, &[&str], bool); 20] = [
+    const HANDED_ON: [(&str, &[&str], bool); 21] = [
         ("output", &["--output", "b.exr"], true),
         ("bits", &["--bits", "16"], true),
         ("samples", &["--samples", "7"], false),
+        ("adaptive", &["--adaptive", "always"], true),
         ("size", &["--size", "40x30"], false),
         ("crop", &["--crop", "1,2,3,4"], true),
         ("split", &["--split", "rows"], true),

@@ -87,6 +87,7 @@ fn settings(
         ("the size", format!("{width}x{height}")),
         ("the crop", crop),
         ("the number of samples", desc.render.samples.value.to_string()),
+        ("render.adaptive", format!("{:?}", desc.render.adaptive)),
         ("the seed", desc.render.seed.value.to_string()),
         ("render.clamp", clamp.map_or("None".to_owned(), |limit| limit.to_string())),
         ("the set of layers", layers),

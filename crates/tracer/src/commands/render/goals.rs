@@ -103,7 +103,10 @@ pub fn end(desc: &mut SceneDesc, film: &Film, interrupted: bool, shell: &Shell) 
     if fewest < asked {
         let held = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
         let why = if goal.is_some_and(|goal| noise <= goal) { "that is good enough" } else { "the time is up" };
-        say(format!("{held} samples per pixel: {why}"));
+        let Crop { width, height, .. } = film.crop();
+        let mean = film.camera_samples() as f64 / (f64::from(width) * f64::from(height));
+        let on_average = if film.is_adaptive() { format!(", {mean:.0} on average") } else { String::new() };
+        say(format!("{held} samples per pixel{on_average}: {why}"));
         desc.render.samples = fewest.into();
     } else if let Some(goal) = goal.filter(|goal| noise > *goal) {
         let (noise, percent) = (100.0 * noise, 100.0 * goal);
