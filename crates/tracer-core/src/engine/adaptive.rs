@@ -2,12 +2,13 @@
 //!
 //! Two of them differ by what two samples of a pixel do, sharing and light paths and all. For the least variance of the
 //! whole picture in a given time a tile takes samples in proportion to the root of its own over what its samples cost
-//! (Neyman 1934): here a half, a quarter or an eighth of those that the noisiest tiles take. The cost is counted in rays
-//! of paths, of which glass has many and the sky has one, not measured: so it is the same on every machine. What a tile
-//! has is smoothed with its neighbours', for it tells little by itself. Above which variance tiles take all is chosen by
-//! the time that it saves, that of light paths, which come whoever rests, beside it; and that is judged by two pictures
-//! that the other two know nothing of, both ways: where few pixels bear the noise, what one pair finds bright the other
-//! does not, and nothing would be gained. Where less than a fifth is, no tile rests.
+//! (Neyman 1934): here a half, a quarter or an eighth of those that the noisiest tiles take. The cost is counted in
+//! rays of paths, of which glass has many and the sky has one, not measured: so it is the same on every machine. (Of a
+//! part of a picture and of another the times of a sample were in proportion to it within a seventh, in three scenes.)
+//! What a tile has is smoothed with its neighbours', for it tells little by itself. Above which variance tiles take all
+//! is chosen by the time that it saves, that of light paths, which come whoever rests, beside it; and that is judged by
+//! two pictures that the other two know nothing of, both ways: where few pixels bear the noise, what one pair finds
+//! bright the other does not, and nothing would be gained. Where less than a fifth is, no tile rests.
 //!
 //! Tried: pictures of two, four and eight samples instead of one tell no more (docs/noise.md).
 
@@ -26,18 +27,15 @@ use tracer_kernels::sampling::sampler::hash3;
 /// The same noise takes so many times less at least, or no tile rests.
 const WORTH: f64 = 1.2;
 
-/// What a sample costs beside its path's rays: what is shared, and its place on the film.
-const SAMPLE: f64 = 1.0;
-
 /// What a light path costs: two rays and a half on average, and what falls on the film, in rays of camera paths. Of
-/// `marbles`, whose filter is wide, 3.7 were measured.
-const LIGHT_PATH: f64 = 4.0;
+/// `marbles`, whose filter is wide, 3.0 were measured.
+const LIGHT_PATH: f64 = 3.0;
 
 /// The variance above which tiles take all samples is looked for among those of so many tiles.
 const CANDIDATES: usize = 32;
 
-/// Whether it is to be decided now which tiles rest: all tiles have taken all samples so far, and the rendering goes on.
-/// With a noise goal that has not been said otherwise, where it will take twice as many.
+/// Whether it is to be decided now which tiles rest: all tiles have taken all samples so far, and the rendering goes
+/// on. With a noise goal that has not been said otherwise, where it will take twice as many.
 pub(super) fn is_due(scene: &Scene, options: &RenderOptions, film: &Film, goal: Option<f64>) -> bool {
     let begins = film.whole == FROM.max(film.first()) && film.unfinished.is_none();
     begins
@@ -141,7 +139,7 @@ impl Tiles {
             let rays = [a, b].map(|film| f64::from(film.number(Layer::PathLength, x, y)));
             tiles.counts[tile] += 1.0;
             tiles.variances[tile] += 0.5 * difference * difference;
-            tiles.costs[tile] += SAMPLE + 0.5 * (rays[0] + rays[1]);
+            tiles.costs[tile] += 0.5 * (rays[0] + rays[1]);
         }
         for mean in [&mut tiles.variances, &mut tiles.costs] {
             mean.iter_mut().zip(&tiles.counts).for_each(|(mean, count)| *mean /= count);

@@ -6,6 +6,7 @@
 
 mod adaptive;
 mod counting;
+mod deal;
 mod direct;
 mod grid;
 mod inspect;

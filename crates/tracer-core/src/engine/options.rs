@@ -33,11 +33,11 @@ pub struct RenderOptions {
     /// asked for. It is looked at where all pixels have 16 samples, and then four times from each power of two to the
     /// next, at 20, 24, 28, 32, 40 and so on: so the picture depends on nothing but the scene.
     pub noise: Option<f64>,
-    /// Whether tiles of 16x16 pixels that are quiet take fewer samples than those that are noisy: a half, a quarter or an
-    /// eighth of them, from 64 samples per pixel on. Four pictures of one sample per pixel, which are not shown, tell
-    /// which; where less than a fifth of the samples would be saved, all take all. It is unbiased, and depends on scene,
-    /// size and seed alone: crops and parts are as in the whole. `None`: what the scene says; else, where a noise is
-    /// asked for that takes 128 samples or more. Where something moves while the shutter is open all take all.
+    /// Whether tiles of 16x16 pixels that are quiet take fewer samples than those that are noisy: a half, a quarter or
+    /// an eighth of them, from 64 samples per pixel on. Four pictures of one sample per pixel, which are not shown,
+    /// tell which; where less than a fifth of the samples would be saved, all take all. It is unbiased, and depends on
+    /// scene, size and seed alone: crops and parts are as in the whole. `None`: what the scene says; else, where a
+    /// noise is asked for that takes 128 samples or more. Where something moves while the shutter is open all take all.
     pub adaptive: Option<bool>,
     /// The rendering ends then, as an observer would end it; not before every pixel has a sample.
     pub until: Option<Instant>,

@@ -1,5 +1,6 @@
 //! A pass: a range of sample indices added to every pixel, its work dealt out to threads in batches.
 
+use super::deal::{Deal, joined};
 use super::direct;
 use super::grid::Grid;
 use super::lighting::Lighting;
@@ -10,8 +11,8 @@ use super::watcher::Unwatched;
 use crate::film::{Adaptive, Cells, Film, Keeper, MattesKept, Piece, Plan, Samples, Tile, Unfinished};
 use crate::film::{half_end, run_end};
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use tracer_kernels::engine::batch::{Batch, ITEMS, PATHS};
 use tracer_kernels::engine::pass::Pass;
@@ -100,62 +101,6 @@ impl Passes {
         let Some(limit) = longest else { return };
         let of_one = time.as_secs_f64() / f64::from(self.last);
         self.longest = ((limit.as_secs_f64() / of_one.max(1e-9)) as u32).clamp(1, 16 * SAMPLES);
-    }
-}
-
-/// The batches of a pass, for whichever thread is free.
-struct Deal {
-    pieces: Vec<Piece>,
-    /// Number of each piece's first batch, and of all.
-    firsts: Vec<usize>,
-    per_batch: u32,
-    next: AtomicUsize,
-    returned: Mutex<Vec<Piece>>,
-}
-
-impl Deal {
-    /// So many places a batch.
-    fn new(pieces: Vec<Piece>, per_batch: u32) -> Self {
-        let mut firsts = vec![0];
-        for Piece { places, .. } in &pieces {
-            firsts.push(firsts[firsts.len() - 1] + places.len().div_ceil(per_batch as usize));
-        }
-        Deal { pieces, firsts, per_batch, next: AtomicUsize::new(0), returned: Mutex::default() }
-    }
-
-    /// Each of them a batch.
-    fn of_batches(pieces: Vec<Piece>) -> Self {
-        let firsts = (0..=pieces.len()).collect();
-        Deal { pieces, firsts, per_batch: u32::MAX, next: AtomicUsize::new(0), returned: Mutex::default() }
-    }
-
-    /// The next batch.
-    fn take(&self) -> Option<Piece> {
-        let k = self.next.fetch_add(1, Ordering::Relaxed);
-        let piece = self.firsts.partition_point(|&first| first <= k) - 1;
-        let Piece { places, samples } = self.pieces.get(piece)?;
-        let start = places.start + (k - self.firsts[piece]) as u32 * self.per_batch;
-        let end = places.end.min(start.saturating_add(self.per_batch));
-        Some(Piece { places: start..end, samples: samples.clone() })
-    }
-
-    /// What of a batch was not done.
-    fn give_back(&self, piece: Piece) {
-        self.returned.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(piece);
-    }
-
-    /// What has not been taken or was given back.
-    fn left(self) -> Vec<Piece> {
-        let taken = self.next.into_inner();
-        let mut left = self.returned.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-        for (Piece { places, samples }, &first) in self.pieces.iter().zip(&self.firsts) {
-            let of_it = u32::try_from(taken.saturating_sub(first)).unwrap_or(u32::MAX);
-            let start = places.start.saturating_add(of_it.saturating_mul(self.per_batch));
-            if start < places.end {
-                left.push(Piece { places: start..places.end, samples: samples.clone() });
-            }
-        }
-        left
     }
 }
 
@@ -273,7 +218,7 @@ impl Painter<'_> {
             }
             match self.quarter {
                 None => light = self.bring(plain, light..samples.end.min(self.light_until), &cells),
-                Some(_) if begins && !deal.pieces.is_empty() => drop(self.bring(plain, samples.clone(), &cells)),
+                Some(_) if begins && !deal.is_empty() => drop(self.bring(plain, samples.clone(), &cells)),
                 Some(_) => {}
             }
             self.pool.on_all(&|batch: &mut Batch| {
@@ -483,17 +428,6 @@ impl Painter<'_> {
     }
 }
 
-/// Pieces and those that come after them, as one where they follow each other.
-fn joined(mut pieces: Vec<Piece>, later: Vec<Piece>) -> Vec<Piece> {
-    for piece in later {
-        match pieces.last_mut().filter(|last| last.places.end == piece.places.start && last.samples == piece.samples) {
-            Some(last) => last.places.end = piece.places.end,
-            None => pieces.push(piece),
-        }
-    }
-    pieces
-}
-
 /// Of each slot of a batch what all groups have brought, in the film's least units.
 type Totals = Vec<[i128; 3]>;
 
@@ -570,35 +504,6 @@ mod tests {
             }
             let looks = (start + 1..=samples).filter(|&n| is_looked_at(n));
             assert!(looks.clone().count() > 2 && looks.clone().all(|look| ends.contains(&look)), "{ends:?}");
-        }
-    }
-
-    #[test]
-    fn what_is_dealt_and_what_is_left_is_all() {
-        let piece = |places: Range<u32>, samples: Range<u32>| Piece { places, samples };
-        let pieces = vec![piece(3..8, 4..6), piece(9..10, 5..6), piece(12..20, 4..6)];
-        let mut all: Vec<(u32, u32)> = Vec::new();
-        let add = |all: &mut Vec<(u32, u32)>, pieces: &[Piece]| {
-            for Piece { places, samples } in pieces {
-                all.extend(places.clone().flat_map(|place| samples.clone().map(move |sample| (place, sample))));
-            }
-            all.sort_unstable();
-        };
-        add(&mut all, &pieces);
-        for per_batch in [1, 2, 4] {
-            for taken in 0..20 {
-                let deal = Deal::new(pieces.clone(), per_batch);
-                let mut found = Vec::new();
-                for k in 0..taken {
-                    match deal.take() {
-                        Some(piece) if k % 3 == 1 => deal.give_back(piece),
-                        Some(piece) => add(&mut found, &[piece]),
-                        None => {}
-                    }
-                }
-                add(&mut found, &deal.left());
-                assert_eq!(found, all, "{per_batch} {taken}");
-            }
         }
     }
 }

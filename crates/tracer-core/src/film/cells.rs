@@ -109,8 +109,8 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Does a work for each tile that takes a sample index and has pixels in common with the block, or part of one, that
-    /// has these slots; what it is given tells them: slot counted from the first, and place in the tile.
+    /// Does a work for each tile that takes a sample index and has pixels in common with the block, or part of one,
+    /// that has these slots; what it is given tells them: slot counted from the first, and place in the tile.
     pub fn each(
         &self,
         pixels: &Pixels,

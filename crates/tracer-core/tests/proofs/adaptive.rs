@@ -1,5 +1,5 @@
-//! Adaptive sampling (`film::adaptive`, `engine::adaptive`): quiet tiles take fewer samples, and the picture is the same
-//! on average, as noisy as it tells, and less so than with as many samples shared out evenly.
+//! Adaptive sampling (`film::adaptive`, `engine::adaptive`): quiet tiles take fewer samples, and the picture is the
+//! same on average, as noisy as it tells, and less so than with as many samples shared out evenly.
 
 use super::noise::error;
 use crate::support::film;
@@ -51,9 +51,9 @@ fn of_tile(film: &Film, [column, row]: [u32; 2]) -> f64 {
     pixels.map(|(x, y)| luminance(film.radiance(x, y))).sum::<f64>() / 256.0
 }
 
-/// The same mean in every tile. By seed the films share their first 64 samples, and many more in tiles that rest little:
-/// what they differ by is little, too. By Student's t of eleven degrees of freedom one of 48 tiles is above 5.5 by chance
-/// once in a hundred times; seeds are fixed.
+/// The same mean in every tile. By seed the films share their first 64 samples, and many more in tiles that rest
+/// little: what they differ by is little, too. By Student's t of eleven degrees of freedom one of 48 tiles is above 5.5
+/// by chance once in a hundred times; seeds are fixed.
 fn assert_as_bright_everywhere(text: &str) {
     let [even, adaptive] = [false, true].map(|adaptive| films(text, adaptive));
     let rest = adaptive.iter().filter(|film| film.is_adaptive()).count();
@@ -82,8 +82,8 @@ fn it_is_as_bright_in_a_room() {
     assert_as_bright_everywhere(IN_A_BALL);
 }
 
-/// What is told is the error, as of even films, and the samples are worth more: by a quarter at least of those that even
-/// ones would take for the same noise. Of films of which few pixels bear the noise more is told than is true
+/// What is told is the error, as of even films, and the samples are worth more: by a quarter at least of those that
+/// even ones would take for the same noise. Of films of which few pixels bear the noise more is told than is true
 /// (`film::noise`), of both.
 #[test]
 #[ignore = "long: cargo xtask prove proofs"]

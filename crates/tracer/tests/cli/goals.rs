@@ -124,8 +124,8 @@ fn a_plan_is_the_same_bytes_on_any_threads() {
     }
 }
 
-/// What a noise goal has ended while quiet tiles rest is told, and made again to the byte: by the report's command, from
-/// the picture, and wherever it was interrupted.
+/// What a noise goal has ended while quiet tiles rest is told, and made again to the byte: by the report's command,
+/// from the picture, and wherever it was interrupted.
 #[test]
 fn quiet_tiles_rest_where_a_noise_is_asked_for() {
     let sandbox = Sandbox::new();

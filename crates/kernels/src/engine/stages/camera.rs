@@ -170,9 +170,9 @@ pub fn filter_offset<F: Lanes>(filter: Filter, u: F, v: F) -> (F, F) {
 /// a0 .. a3 of the window.
 const A: [f32; 4] = [0.358_75, 0.488_29, 0.141_28, 0.011_68];
 
-/// Inverse of the cumulative 4-term Blackman-Harris window on [-1, 1] (Harris 1978): as of a Gaussian, which it is close
-/// to, x = -z P(z^2) with z^2 = -ln(4 u (1 - u)), to 1.3e-3, and a step of Newton's, to 3e-6; to 3e-5 where u is below
-/// 1e-4.
+/// Inverse of the cumulative 4-term Blackman-Harris window on [-1, 1] (Harris 1978): as of a Gaussian, which it is
+/// close to, x = -z P(z^2) with z^2 = -ln(4 u (1 - u)), to 1.3e-3, and a step of Newton's, to 3e-6; to 3e-5 where u is
+/// below 1e-4.
 #[inline(always)]
 fn blackman_harris<F: Lanes>(u: F) -> F {
     let c = F::splat;
