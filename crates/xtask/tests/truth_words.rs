@@ -6,11 +6,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use xtask::truth::kinds;
 
 /// Words that are not drawn, and why.
-const NOT_DRAWN: [(&str, &str); 40] = [
+const NOT_DRAWN: [(&str, &str); 42] = [
     ("Render.samples", "the command says how many"),
     ("Render.seed", "the command says which"),
     ("Render.clamp", "takes light on purpose"),
     ("Render.noise", "the command says how many samples"),
+    ("Render.adaptive", "from 64 samples on, and the default is what is tested: proofs::adaptive"),
+    ("Adaptive.", "from 64 samples on, and the default is what is tested: proofs::adaptive"),
     ("Render.time", "the command says how many samples"),
     ("Render.acceleration", "the same bytes: proofs::same_bytes"),
     ("Acceleration.", "the same bytes: proofs::same_bytes"),

@@ -23,8 +23,8 @@ fn scene(text: &str, adaptive: bool) -> Scene {
 /// that is quiet.
 const BEFORE_A_SKY: &str = "camera: Camera(position: (0, 1, 6), look_at: (0, 0.5, 0), fov: 45), \
     background: (0.2, 0.3, 0.4), render: Render(max_bounces: 4), \
-    lights: [SphereLight(center: (4, 5, 1), radius: 0.3, radiance: 500)], \
-    objects: [Disk(center: (1.7, 0, 0.8), radius: 1.1, normal: (0, 1, 0)), \
+    lights: [SphereLight(center: (4, 5, 1), radius: 0.1, radiance: 500)], \
+    objects: [Disk(center: (1.7, 0, 0.8), radius: 0.8, normal: (0, 1, 0)), \
         Sphere(center: (1.9, 0.4, 0.8), radius: 0.4, material: Transparent(ior: 1.5)), \
         Rectangle(center: (-2.6, 1, -1), normal: (1, 0, 0.6), size: (2.4, 2)), \
         Rectangle(center: (0.2, 0.6, -1.4), normal: (-0.2, 0.2, 1), size: 1.2, material: Mirror(reflectance: 0.9))]";
@@ -57,7 +57,7 @@ fn of_tile(film: &Film, [column, row]: [u32; 2]) -> f64 {
 fn assert_as_bright_everywhere(text: &str) {
     let [even, adaptive] = [false, true].map(|adaptive| films(text, adaptive));
     let rest = adaptive.iter().filter(|film| film.is_adaptive()).count();
-    assert!(rest >= 10, "in {rest} of {SEEDS} films tiles rest");
+    assert!(rest >= 8, "in {rest} of {SEEDS} films tiles rest");
     for tile in (0..SIZE[1] / 16).flat_map(|row| (0..SIZE[0] / 16).map(move |column| [column, row])) {
         let mean = even.iter().map(|film| of_tile(film, tile)).sum::<f64>() / f64::from(SEEDS);
         let differences: Vec<f64> =

@@ -136,7 +136,7 @@ fn quiet_tiles_rest_where_a_noise_is_asked_for() {
     camera: Camera(position: (0, 1, 6), look_at: (0, 0.5, 0), fov: 40),
     image: Image(width: 72, height: 56),
     background: (0.2, 0.3, 0.4),
-    render: Render(max_bounces: 4),
+    render: Render(max_bounces: 4, caustics: None),
     lights: [SphereLight(center: (4, 5, 1), radius: 0.4, radiance: 200)],
     objects: [
         Disk(center: (1.3, 0, 0.3), radius: 1.3, normal: (0, 1, 0)),
