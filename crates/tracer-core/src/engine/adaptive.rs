@@ -10,7 +10,7 @@
 //! two pictures that the other two know nothing of, both ways: where few pixels bear the noise, what one pair finds
 //! bright the other does not, and nothing would be gained. Where less than a fifth is, no tile rests.
 //!
-//! Tried: pictures of two, four and eight samples instead of one tell no more (docs/noise.md).
+//! Tried: pictures of two, four and eight samples instead of one tell hardly more (docs/noise.md).
 
 use super::grid::Grid;
 use super::observer::{Observer, Progress};
@@ -31,6 +31,9 @@ const WORTH: f64 = 1.2;
 /// `marbles`, whose filter is wide, 3.0 were measured.
 const LIGHT_PATH: f64 = 3.0;
 
+/// What a sample costs at least.
+const LEAST_COST: f64 = 0.1;
+
 /// The variance above which tiles take all samples is looked for among those of so many tiles.
 const CANDIDATES: usize = 32;
 
@@ -50,7 +53,7 @@ pub(super) fn is_due(scene: &Scene, options: &RenderOptions, film: &Film, goal: 
 /// Whether a film that is gone on with was made so: of what is not said a film may be either.
 pub(super) fn fits(scene: &Scene, options: &RenderOptions, film: &Film) -> bool {
     let asked = options.adaptive.or(scene.adaptive).filter(|_| film.whole > FROM && !scene.moves());
-    asked.is_none_or(|asked| film.adaptive().is_some() == asked)
+    asked.is_none_or(|asked| if asked { film.adaptive().is_some() } else { !film.is_adaptive() })
 }
 
 /// Decides it, where there are so many light paths for a sample index; `None` where the observer has ended the
@@ -149,7 +152,8 @@ impl Tiles {
 
     /// What is to be in proportion to the square of a tile's samples: variance over cost, smoothed.
     fn wanted(&self) -> Vec<f64> {
-        self.smoothed().iter().zip(&self.costs).map(|(variance, cost)| variance / cost).collect()
+        // Beside a fisheye's circle no ray is cast.
+        self.smoothed().iter().zip(&self.costs).map(|(variance, cost)| variance / cost.max(LEAST_COST)).collect()
     }
 
     /// With the weights 1, 2, 1 both ways.
