@@ -200,6 +200,7 @@ impl Film {
     }
 
     /// How many sample indices' light paths count for a tile.
+    #[inline(always)] // Developing asks it once a pixel.
     pub(super) fn light_of(&self, tile: &Tile) -> f64 {
         if tile.rest == 0 {
             return self.light_count();
